@@ -1,0 +1,76 @@
+//! What a caller may choose: how finely to split, how light is exchanged, when to stop.
+
+/// Who exchanges light with whom.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Exchange {
+    /// Light leaves and arrives at the lit side of an element alone: physics.
+    #[default]
+    OneSided,
+    /// Two surfaces exchange light when both see each other's front, or both see each
+    /// other's back, and share one exitance for both sides: the rule of an older program,
+    /// kept for comparison. A surface re-emits what it reflects on both sides, so a
+    /// reflectance above .5 makes light from nothing.
+    Paired,
+}
+
+/// How a scene becomes elements and patches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeshConfig {
+    /// Number of elements to split into; the scene's own triangles are the least.
+    pub elements: usize,
+    /// A patch, the unit of shooting, holds at most this many elements.
+    pub patch_elements: usize,
+}
+
+impl MeshConfig {
+    /// About `elements` elements, in patches whose number grows with the square root of
+    /// it, so that a sweep of shots costs `elements`^1.5 rather than its square.
+    #[must_use]
+    pub fn with_elements(elements: usize) -> Self {
+        Self { elements, patch_elements: patch_size(elements) }
+    }
+}
+
+/// Patches of 12 elements at 10,000 elements, growing with the square root.
+fn patch_size(elements: usize) -> usize {
+    let size = 12.0 * (elements as f64 / 10_000.0).sqrt();
+    (size.round() as usize).clamp(4, 256)
+}
+
+/// When to stop shooting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StopRule {
+    /// Stop when unshot power over emitted power is at most this in every channel.
+    pub unshot: f64,
+    /// Stop after this many shots.
+    pub max_shots: Option<u64>,
+}
+
+/// How light is shot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShootingConfig {
+    /// When to stop.
+    pub stop: StopRule,
+    /// Who exchanges light with whom.
+    pub exchange: Exchange,
+    /// Relative error asked of one form factor, 95th percentile; 1e-1, 1e-2 or 1e-3 change
+    /// which estimator serves which distance.
+    pub tolerance: f64,
+    /// A shooter's cell is split for one receiver until what it brings, were nothing in
+    /// between, is at most this share of the scene's mean irradiance: more rays where the
+    /// light is. Smaller gives smoother penumbrae.
+    pub cell_share: f64,
+}
+
+impl ShootingConfig {
+    /// Physics, 1 % form factors, and a stop at `unshot` of the emitted power.
+    #[must_use]
+    pub fn until(unshot: f64) -> Self {
+        Self {
+            stop: StopRule { unshot, max_shots: None },
+            exchange: Exchange::OneSided,
+            tolerance: 1e-2,
+            cell_share: 0.05,
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! Numbers the leaves as elements, and picks the nodes that shoot.
+
+use glam::DVec3;
+
+use super::{Element, Mesh, Patch, triangle_area};
+
+/// Numbers the leaves depth first, so that the elements below a node follow each other.
+pub(super) fn number_elements(mesh: &mut Mesh) {
+    for root in 0..mesh.roots.len() as u32 {
+        number(mesh, root);
+    }
+}
+
+fn number(mesh: &mut Mesh, node: u32) {
+    let first = mesh.elements.len() as u32;
+    let node_ref = &mesh.nodes[node as usize];
+    if let Some(child) = node_ref.children {
+        // Depth is at most twice the binary logarithm of the edge ratio: no deep recursion.
+        number(mesh, child);
+        number(mesh, child + 1);
+    } else {
+        let (vertices, root) = (node_ref.vertices, node_ref.root);
+        let area = triangle_area(mesh.corners(vertices));
+        mesh.elements.push(Element { vertices, points: [0; 3], root, area });
+    }
+    mesh.nodes[node as usize].elements = first..mesh.elements.len() as u32;
+}
+
+/// The highest nodes with at most `most` elements.
+pub(super) fn choose(mesh: &mut Mesh, most: usize) {
+    let mut stack: Vec<u32> = (0..mesh.roots.len() as u32).rev().collect();
+    while let Some(id) = stack.pop() {
+        let node = &mesh.nodes[id as usize];
+        match node.children {
+            Some(child) if node.elements.len() > most => stack.extend([child + 1, child]),
+            _ => {
+                let corners = mesh.corners(node.vertices);
+                let (centroid, radius) = bounding(corners);
+                let elements = node.elements.clone();
+                mesh.patches.push(Patch { node: id, elements, centroid, radius });
+            }
+        }
+    }
+}
+
+/// Centroid, and the largest distance of a corner from it.
+pub(crate) fn bounding(corners: [DVec3; 3]) -> (DVec3, f64) {
+    let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
+    let radius = corners.iter().map(|c| c.distance_squared(centroid)).fold(0.0, f64::max).sqrt();
+    (centroid, radius)
+}

@@ -1,0 +1,187 @@
+//! Receiver points: where the irradiance is computed, shared by coplanar neighbours.
+//!
+//! The elements around a vertex fall into sectors. Two neighbours are in one sector when
+//! they are coplanar, face the same way, and no other surface meets the edge between them:
+//! on the two sides of a wall that stands on a floor the light differs, so the floor has a
+//! point on each side of it. A point whose sector does not surround the vertex moves a
+//! little into the sector, off the rim where visibility and form factors are undecided.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::Mesh;
+
+/// Neighbours whose normals are closer than this angle, in radians, are coplanar: far above
+/// the rounding of f64 normals, far below any crease one could see.
+const COPLANAR_ANGLE: f64 = 1e-5;
+
+/// How far a point on a rim moves into its sector, as a share of the way to the mean
+/// centroid of its elements: 1 % of an element, far above the rounding of f32 rays at
+/// elements of a ten-thousandth of the scene.
+const INSET: f64 = 0.02;
+
+/// The corners of a sector that surrounds its vertex sum to a full turn within this, radians.
+const FULL_TURN_SLACK: f64 = 1e-6;
+
+/// A place where irradiance is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReceiverPoint {
+    /// Where.
+    pub position: DVec3,
+    /// Unit normal of the lit side.
+    pub normal: DVec3,
+    /// The input triangle it lies on (one of them, if it is shared).
+    pub triangle: u32,
+}
+
+/// An element's corner at some vertex.
+#[derive(Clone, Copy)]
+struct Corner {
+    element: u32,
+    which: u32,
+}
+
+/// Places the points, numbered in the order in which the elements first use them.
+pub(super) fn place(mesh: &mut Mesh) {
+    const NONE: u32 = u32::MAX;
+    let (starts, corners) = corners_by_vertex(mesh);
+    // Sector leader of each element corner.
+    let mut leader = vec![[NONE; 3]; mesh.elements.len()];
+    let mut point_of_leader: Vec<[u32; 3]> = vec![[NONE; 3]; mesh.elements.len()];
+    let mut sectors = Sectors::default();
+    for vertex in 0..mesh.vertices.len() {
+        let at = &corners[starts[vertex] as usize..starts[vertex + 1] as usize];
+        sectors.find(mesh, at);
+        for (i, corner) in at.iter().enumerate() {
+            let first = at[sectors.leader(i)];
+            leader[corner.element as usize][corner.which as usize] =
+                first.element * 3 + first.which;
+        }
+    }
+    for e in 0..mesh.elements.len() {
+        for k in 0..3 {
+            let l = leader[e][k];
+            let (le, lk) = ((l / 3) as usize, (l % 3) as usize);
+            if point_of_leader[le][lk] == NONE {
+                point_of_leader[le][lk] = mesh.points.len() as u32;
+                let vertex = mesh.elements[e].vertices[k].index();
+                let at = &corners[starts[vertex] as usize..starts[vertex + 1] as usize];
+                let sector =
+                    at.iter().filter(|c| leader[c.element as usize][c.which as usize] == l);
+                let point = position(mesh, mesh.vertices[vertex], sector);
+                mesh.points.push(point);
+            }
+            mesh.elements[e].points[k] = point_of_leader[le][lk];
+        }
+    }
+}
+
+/// The element corners at each vertex: starts per vertex, and the corners in element order.
+fn corners_by_vertex(mesh: &Mesh) -> (Vec<u32>, Vec<Corner>) {
+    let mut starts = vec![0u32; mesh.vertices.len() + 1];
+    for v in mesh.elements.iter().flat_map(|e| e.vertices) {
+        starts[v.index() + 1] += 1;
+    }
+    for i in 0..mesh.vertices.len() {
+        starts[i + 1] += starts[i];
+    }
+    let mut next = starts.clone();
+    let mut corners = vec![Corner { element: 0, which: 0 }; 3 * mesh.elements.len()];
+    for (element, e) in mesh.elements.iter().enumerate() {
+        for (which, v) in e.vertices.iter().enumerate() {
+            let slot = &mut next[v.index()];
+            corners[*slot as usize] = Corner { element: element as u32, which: which as u32 };
+            *slot += 1;
+        }
+    }
+    (starts, corners)
+}
+
+/// Union–find over the corners at one vertex; scratch space kept between vertices.
+#[derive(Default)]
+struct Sectors {
+    parent: Vec<usize>,
+    /// (the edge's far vertex, corner), sorted.
+    spokes: Vec<(u32, usize)>,
+}
+
+impl Sectors {
+    fn find(&mut self, mesh: &Mesh, at: &[Corner]) {
+        self.parent.clear();
+        self.parent.extend(0..at.len());
+        self.spokes.clear();
+        for (i, corner) in at.iter().enumerate() {
+            let v = mesh.elements[corner.element as usize].vertices;
+            let k = corner.which as usize;
+            self.spokes.push((v[(k + 1) % 3].0, i));
+            self.spokes.push((v[(k + 2) % 3].0, i));
+        }
+        self.spokes.sort_unstable();
+        let spokes = std::mem::take(&mut self.spokes);
+        for group in spokes.chunk_by(|a, b| a.0 == b.0) {
+            self.join_across(mesh, at, group);
+        }
+        self.spokes = spokes;
+    }
+
+    /// Joins the corners on the two sides of one edge, unless another surface meets it.
+    fn join_across(&mut self, mesh: &Mesh, at: &[Corner], group: &[(u32, usize)]) {
+        let normal = |i: usize| {
+            let element = &mesh.elements[at[i].element as usize];
+            mesh.roots[element.root as usize].normal
+        };
+        let first = normal(group[0].1);
+        // |sine| of the angle between the planes, either way up.
+        let coplanar = |n: DVec3| first.cross(n).length() < COPLANAR_ANGLE;
+        if !group.iter().all(|&(_, i)| coplanar(normal(i))) {
+            return;
+        }
+        for facing in [true, false] {
+            let mut same =
+                group.iter().map(|g| g.1).filter(|&i| (first.dot(normal(i)) > 0.0) == facing);
+            if let Some(one) = same.next() {
+                for other in same {
+                    self.join(one, other);
+                }
+            }
+        }
+    }
+
+    fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.leader(a), self.leader(b));
+        self.parent[a.max(b)] = a.min(b);
+    }
+
+    /// The smallest corner of the sector.
+    fn leader(&self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            i = self.parent[i];
+        }
+        i
+    }
+}
+
+fn position<'a>(
+    mesh: &Mesh,
+    vertex: DVec3,
+    sector: impl Iterator<Item = &'a Corner>,
+) -> ReceiverPoint {
+    let mut turn = 0.0;
+    let mut weighted = DVec3::ZERO;
+    let mut area = 0.0;
+    let mut owner = None;
+    for corner in sector {
+        let element = &mesh.elements[corner.element as usize];
+        let p = mesh.corners(element.vertices);
+        let k = corner.which as usize;
+        turn += (p[(k + 1) % 3] - p[k]).angle_between(p[(k + 2) % 3] - p[k]);
+        weighted += ((p[0] + p[1] + p[2]) / 3.0 - vertex) * element.area;
+        area += element.area;
+        owner.get_or_insert(element.root);
+    }
+    let root = &mesh.roots[owner.expect("a sector has at least the corner that asked") as usize];
+    let inside = turn > TAU - FULL_TURN_SLACK;
+    let step = if inside || area == 0.0 { DVec3::ZERO } else { weighted / area * INSET };
+    ReceiverPoint { position: vertex + step, normal: root.normal, triangle: root.triangle.0 }
+}

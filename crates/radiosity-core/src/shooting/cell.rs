@@ -1,0 +1,84 @@
+//! A piece of the shooter, as fine as one receiver needs it.
+
+use glam::DVec3;
+use scene::Rgb;
+
+use crate::mesh::{Mesh, Patch, bounding};
+
+/// A leaf may be quartered this many times for a bright shooter's penumbra: up to 16
+/// segments from one element.
+const MOST_QUARTERINGS: u8 = 2;
+
+/// A flat piece of the shooter with one unshot exitance.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell {
+    pub(super) corners: [DVec3; 3],
+    pub(super) centroid: DVec3,
+    pub(super) area: f64,
+    /// Largest distance of a corner from the centroid.
+    pub(super) radius: f64,
+    pub(super) longest: f64,
+    /// Mean unshot exitance.
+    pub(super) unshot: Rgb,
+    /// What may replace it.
+    pub(super) parts: Parts,
+}
+
+/// How a cell can be split.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Parts {
+    /// Two cells of the mesh, with unshot exitances of their own; the index of the first.
+    Mesh(u32),
+    /// Four geometric quarters, alike, this many times more.
+    Quarters(u8),
+}
+
+impl Cell {
+    fn new(corners: [DVec3; 3], area: f64, unshot: Rgb, parts: Parts) -> Self {
+        let (centroid, radius) = bounding(corners);
+        let [a, b, c] = corners;
+        let longest =
+            (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+        Self { corners, centroid, area, radius, longest: longest.sqrt(), unshot, parts }
+    }
+
+    /// The four similar quarters of a cell that the mesh does not split.
+    pub(super) fn quarters(&self, left: u8) -> [Self; 4] {
+        let [a, b, c] = self.corners;
+        let (ab, bc, ca) = (a.midpoint(b), b.midpoint(c), c.midpoint(a));
+        [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]].map(|corners| {
+            Self::new(corners, self.area / 4.0, self.unshot, Parts::Quarters(left - 1))
+        })
+    }
+}
+
+/// Lays the cells of a patch out in `cells`, the whole patch first.
+pub(super) fn cells_of(mesh: &Mesh, patch: &Patch, unshot: &[Rgb], cells: &mut Vec<Cell>) {
+    cells.clear();
+    cells.push(cell_of(mesh, patch.node, unshot));
+    let mut nodes = vec![patch.node];
+    let mut i = 0;
+    while i < cells.len() {
+        if let Some(child) = mesh.nodes[nodes[i] as usize].children {
+            cells[i].parts = Parts::Mesh(cells.len() as u32);
+            for node in [child, child + 1] {
+                nodes.push(node);
+                cells.push(cell_of(mesh, node, unshot));
+            }
+        }
+        i += 1;
+    }
+}
+
+fn cell_of(mesh: &Mesh, node: u32, unshot: &[Rgb]) -> Cell {
+    let node = &mesh.nodes[node as usize];
+    let range = node.elements.start as usize..node.elements.end as usize;
+    let mut power = Rgb::ZERO;
+    let mut area = 0.0;
+    for (element, u) in mesh.elements[range.clone()].iter().zip(&unshot[range]) {
+        power += *u * element.area;
+        area += element.area;
+    }
+    let parts = Parts::Quarters(MOST_QUARTERINGS);
+    Cell::new(mesh.corners(node.vertices), area, power / area, parts)
+}

@@ -1,0 +1,232 @@
+//! Light from one patch to a run of receiver points.
+//!
+//! Every point walks down the patch's cells as far as its distance and the light at stake
+//! demand; form factor first, then, if anything arrives, one segment per cell. Points are
+//! taken in runs, so that the segments of one cell share an origin.
+
+use accel::{Occluder, Segment, Target};
+use glam::DVec3;
+use scene::Rgb;
+
+use super::cell::{Cell, Parts};
+use crate::config::Exchange;
+use crate::form_factor::{Rule, centroid_kernel, lambert, three_point_kernel};
+use crate::mesh::ReceiverPoint;
+
+/// A cell of several elements serves a point only beyond this many of its radii: nearer,
+/// the elements' own unshot exitances matter.
+const OPEN_RADII: f64 = 2.5;
+
+/// Segments start and end this far above their surfaces, as a share of the scene's extent:
+/// 80 ulps of f32 coordinates, and less than the thinnest gap worth modelling.
+pub(crate) const SEGMENT_LIFT: f64 = 5e-6;
+
+/// What all receivers of one shot have in common.
+pub(super) struct Shot<'a> {
+    pub(super) occluder: &'a dyn Occluder,
+    pub(super) cells: &'a [Cell],
+    /// Unit normal of the shooter's lit side.
+    pub(super) normal: DVec3,
+    /// The shooter's input triangle.
+    pub(super) triangle: u32,
+    pub(super) exchange: Exchange,
+    pub(super) rule: Rule,
+    /// Length by which segments keep off their surfaces.
+    pub(super) lift: f64,
+    /// Irradiance below which a cell need not be split, per channel; at least 0.
+    pub(super) negligible: Rgb,
+}
+
+/// A run of receiver points.
+#[derive(Clone, Copy)]
+pub(super) struct Receivers<'a> {
+    pub(super) points: &'a [ReceiverPoint],
+    /// Share of an element that each stands for; all of it if absent. A point that stands
+    /// for little needs little care: its neighbours see the shooter from elsewhere.
+    pub(super) shares: Option<&'a [f64]>,
+}
+
+impl Receivers<'_> {
+    fn share(&self, index: u32) -> f64 {
+        self.shares.map_or(1.0, |s| s[index as usize])
+    }
+}
+
+/// What it took.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Counts {
+    pub(super) rays: u64,
+    pub(super) form_factors: u64,
+}
+
+/// Buffers of one run of receivers, kept from shot to shot.
+#[derive(Default)]
+pub(super) struct Scratch {
+    /// A stack of runs of receivers that wait for finer cells.
+    waiting: Vec<u32>,
+    /// Receivers of the present cell, with the form factor that visibility decides on.
+    lit: Vec<(u32, f64)>,
+    targets: Vec<Target>,
+    blocked: Vec<bool>,
+}
+
+impl Shot<'_> {
+    /// Writes the irradiance that reaches each of `receivers` into `arriving`.
+    pub(super) fn light(
+        &self,
+        receivers: Receivers,
+        arriving: &mut [Rgb],
+        scratch: &mut Scratch,
+    ) -> Counts {
+        arriving.fill(Rgb::ZERO);
+        scratch.waiting.clear();
+        scratch.waiting.extend(0..receivers.points.len() as u32);
+        let mut run = Run { shot: self, receivers, arriving, scratch, counts: Counts::default() };
+        run.descend(&self.cells[0], 0);
+        run.counts
+    }
+
+    /// On which side of the shooter the receiver lies and with which normal it sees it:
+    /// `None` if light cannot go between them.
+    #[inline]
+    fn facing(&self, cell: &Cell, receiver: &ReceiverPoint) -> Option<(f64, DVec3)> {
+        let height = self.normal.dot(receiver.position - cell.centroid);
+        let side = match self.exchange {
+            Exchange::OneSided if height > 0.0 => 1.0,
+            Exchange::Paired if height != 0.0 => height.signum(),
+            _ => return None,
+        };
+        let normal = receiver.normal * side;
+        let above = |c: &DVec3| normal.dot(*c - receiver.position) > 0.0;
+        cell.corners.iter().any(above).then_some((side, normal))
+    }
+
+    /// Whether the cell must be split for this receiver.
+    #[inline]
+    fn too_coarse(
+        &self,
+        cell: &Cell,
+        receiver: &ReceiverPoint,
+        normal: DVec3,
+        side: f64,
+        share: f64,
+    ) -> bool {
+        let distance = receiver.position.distance(cell.centroid);
+        match cell.parts {
+            Parts::Quarters(0) => return false,
+            Parts::Mesh(_) if distance < OPEN_RADII * cell.radius => return true,
+            _ => {}
+        }
+        let (x, c) = (receiver.position, cell.centroid);
+        let form_factor = centroid_kernel(x, normal, c, self.normal * side, cell.area);
+        (0..3).any(|k| cell.unshot[k] * form_factor * share > self.negligible[k])
+    }
+
+    /// Form factor, and where on the cell a segment should start if not at its centroid.
+    #[inline]
+    fn form_factor(
+        &self,
+        cell: &Cell,
+        receiver: &ReceiverPoint,
+        normal: DVec3,
+        side: f64,
+    ) -> (f64, Option<DVec3>) {
+        let x = receiver.position;
+        let far = x.distance(cell.centroid) / cell.longest;
+        let uncut = || cell.corners.iter().all(|c| normal.dot(*c - x) >= 0.0);
+        if far > self.rule.three_points && uncut() {
+            let shooter_normal = self.normal * side;
+            let value = if far > self.rule.one_point {
+                centroid_kernel(x, normal, cell.centroid, shooter_normal, cell.area)
+            } else {
+                three_point_kernel(x, normal, cell.corners, shooter_normal, cell.area)
+            };
+            return (value, None);
+        }
+        let seen = lambert(x, normal, cell.corners);
+        (seen.form_factor, seen.cut.then_some(seen.middle))
+    }
+}
+
+/// One run of receivers on its way down the cells.
+struct Run<'a> {
+    shot: &'a Shot<'a>,
+    receivers: Receivers<'a>,
+    arriving: &'a mut [Rgb],
+    scratch: &'a mut Scratch,
+    counts: Counts,
+}
+
+impl Run<'_> {
+    /// Serves the receivers waiting from `first` on, by this cell or by parts of it.
+    fn descend(&mut self, cell: &Cell, first: usize) {
+        let shot = self.shot;
+        if cell.unshot == Rgb::ZERO {
+            return;
+        }
+        self.scratch.lit.clear();
+        self.scratch.targets.clear();
+        let last = self.scratch.waiting.len();
+        for i in first..last {
+            let index = self.scratch.waiting[i];
+            let receiver = &self.receivers.points[index as usize];
+            let Some((side, normal)) = shot.facing(cell, receiver) else { continue };
+            let share = self.receivers.share(index);
+            if shot.too_coarse(cell, receiver, normal, side, share) {
+                self.scratch.waiting.push(index);
+                continue;
+            }
+            let (form_factor, from) = shot.form_factor(cell, receiver, normal, side);
+            self.counts.form_factors += 1;
+            if form_factor <= 0.0 {
+                continue;
+            }
+            let to = receiver.position + normal * shot.lift;
+            if from.is_none() && side > 0.0 {
+                self.scratch.lit.push((index, form_factor));
+                self.scratch.targets.push(Target { point: to, ignore: receiver.triangle });
+                continue;
+            }
+            let from = from.unwrap_or(cell.centroid) + shot.normal * (side * shot.lift);
+            let ignore = [shot.triangle, receiver.triangle];
+            self.counts.rays += 1;
+            if !shot.occluder.occluded(&Segment { from, to, ignore }) {
+                self.arriving[index as usize] += cell.unshot * form_factor;
+            }
+        }
+        self.test_visibility(cell);
+        if self.scratch.waiting.len() > last {
+            match cell.parts {
+                Parts::Mesh(child) => {
+                    for c in [child, child + 1] {
+                        self.descend(&shot.cells[c as usize], last);
+                    }
+                }
+                Parts::Quarters(left) => {
+                    for quarter in cell.quarters(left) {
+                        self.descend(&quarter, last);
+                    }
+                }
+            }
+        }
+        self.scratch.waiting.truncate(last);
+    }
+
+    /// One segment per lit receiver, all from the cell's centroid.
+    fn test_visibility(&mut self, cell: &Cell) {
+        let Scratch { lit, targets, blocked, .. } = &mut *self.scratch;
+        if lit.is_empty() {
+            return;
+        }
+        let from = cell.centroid + self.shot.normal * self.shot.lift;
+        blocked.clear();
+        blocked.resize(targets.len(), false);
+        self.shot.occluder.occluded_batch(from, self.shot.triangle, targets, blocked);
+        self.counts.rays += targets.len() as u64;
+        for (&(index, form_factor), _) in
+            lit.iter().zip(&*blocked).filter(|(_, blocked)| !**blocked)
+        {
+            self.arriving[index as usize] += cell.unshot * form_factor;
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Scenes with nothing in them, or with too much.
+
+use radiosity_core::{Mesh, MeshConfig, ShootingConfig, StopReason, StopRule};
+use scene::Rgb;
+
+use crate::models::{Model, solve, until};
+
+#[test]
+fn empty_scene_has_an_empty_solution() {
+    let solved = solve(&Model::new().scene(), 1000, until(1e-3));
+    assert_eq!((solved.reason, solved.shots), (StopReason::NoLight, 0));
+    assert!(solved.solution.elements.is_empty());
+}
+
+#[test]
+fn without_lights_all_is_exactly_dark() {
+    let mut model = Model::new();
+    let wall = model.surface(0.9, 0.0);
+    model.cube([wall; 6]);
+    let solved = solve(&model.scene(), 100, until(1e-3));
+    assert_eq!((solved.reason, solved.rays), (StopReason::NoLight, 0));
+    assert!(solved.solution.elements.iter().all(|e| e.exitance == Rgb::ZERO));
+    assert_eq!(solved.ledger.imbalance(), 0.0);
+}
+
+#[test]
+fn one_emitting_triangle_keeps_its_emittance_and_its_light_escapes() {
+    let mut model = Model::new();
+    let lamp = model.surface(0.5, 2.0);
+    model.triangle([[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], lamp);
+    let solved = solve(&model.scene(), 1, until(1e-3));
+    assert_eq!(solved.reason, StopReason::Converged);
+    assert_eq!(solved.solution.elements[0].exitance, Rgb::new(2.0, 1.0, 0.0));
+    assert_eq!(solved.ledger.escaped, solved.ledger.emitted);
+}
+
+#[test]
+fn black_receivers_end_after_one_shot_per_emitting_patch() {
+    let mut model = Model::new();
+    let lamp = model.surface(0.0, 1.0);
+    model.cube([lamp; 6]);
+    let solved = solve(&model.scene(), 12, until(0.0));
+    assert_eq!((solved.reason, solved.shots), (StopReason::Converged, 12));
+    assert!(solved.solution.elements.iter().all(|e| e.exitance == Rgb::new(1.0, 0.5, 0.0)));
+}
+
+#[test]
+fn triangles_without_area_stay_out_of_the_mesh_and_keep_their_row() {
+    let mut model = Model::new();
+    let lamp = model.surface(0.5, 2.0);
+    model.triangle([[0., 0., 0.], [1., 0., 0.], [2., 0., 0.]], lamp);
+    model.triangle([[0., 0., 0.], [1., 0., 0.], [0., 1., 0.]], lamp);
+    let scene = model.scene();
+    let solved = solve(&scene, 8, until(1e-3));
+    assert!(solved.solution.elements.iter().all(|e| e.triangle.0 == 1));
+    assert_eq!(solved.solution.triangle_exitance(&scene)[0], Rgb::new(2.0, 1.0, 0.0));
+}
+
+#[test]
+fn perfect_reflectors_in_a_closed_scene_have_no_solution() {
+    let mut model = Model::new();
+    let wall = model.surface(1.0, 1.0);
+    model.cube([wall; 6]);
+    let solved = solve(&model.scene(), 12, until(1e-3));
+    assert_eq!((solved.reason, solved.shots), (StopReason::Singular, 0));
+    // One black wall is enough for an end: it absorbs all that is emitted.
+    let mut model = Model::new();
+    let wall = model.surface(1.0, 1.0);
+    let black = model.surface(0.0, 0.0);
+    model.cube([wall, wall, wall, wall, wall, black]);
+    let solved = solve(&model.scene(), 12, until(1e-3));
+    assert_eq!(solved.reason, StopReason::Converged);
+}
+
+#[test]
+fn a_scene_that_hardly_absorbs_stalls_and_says_so() {
+    let mut model = Model::new();
+    let wall = model.surface(1.0 - 1e-7, 1.0);
+    model.cube([wall; 6]);
+    assert_eq!(solve(&model.scene(), 12, until(1e-3)).reason, StopReason::Stalled);
+}
+
+#[test]
+fn a_shot_limit_ends_the_run() {
+    let mut model = Model::new();
+    let wall = model.surface(0.5, 1.0);
+    model.cube([wall; 6]);
+    let stop = StopRule { unshot: 0.0, max_shots: Some(5) };
+    let solved = solve(&model.scene(), 12, ShootingConfig { stop, ..until(0.0) });
+    assert_eq!((solved.reason, solved.shots), (StopReason::ShotLimit, 5));
+}
+
+#[test]
+fn a_million_units_from_the_origin_gives_the_same_light() {
+    let solve_at = |offset: f64| {
+        let mut model = Model::new();
+        let wall = model.surface(0.5, 0.0);
+        let lamp = model.surface(0.5, 1.0);
+        let at = |p: [f64; 3]| p.map(|x| x + offset);
+        let floor = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
+        let roof = [[0., 0., 1.], [0., 1., 1.], [1., 1., 1.], [1., 0., 1.]];
+        let board = [[0.25, 0.25, 0.5], [0.75, 0.25, 0.5], [0.75, 0.75, 0.5], [0.25, 0.75, 0.5]];
+        model.quad(floor.map(at), wall);
+        model.quad(roof.map(at), lamp);
+        model.quad(board.map(at), wall);
+        let scene = model.scene();
+        solve(&scene, 200, until(1e-3)).solution.triangle_exitance(&scene)
+    };
+    // 2²⁰ keeps the vertices exact. Centroids are rounded, so a receiver at the very distance
+    // where a cell gives way to its parts may take the other form factor: within 1 %, and
+    // rarely.
+    for (near, far) in solve_at(0.0).into_iter().zip(solve_at(1_048_576.0)) {
+        assert!((near[0] - far[0]).abs() <= 1e-5 * near[0], "{near:?} {far:?}");
+    }
+}
+
+#[test]
+fn a_solution_does_not_depend_on_the_unit_of_length() {
+    let solve_in = |unit: f64| {
+        let mut model = Model::new();
+        let wall = model.surface(0.5, 0.0);
+        let lamp = model.surface(0.5, 1.0);
+        let scaled = |p: [f64; 3]| p.map(|x| x * unit);
+        model.quad([[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]].map(scaled), wall);
+        model.quad([[0., 0., 1.], [0., 1., 1.], [1., 1., 1.], [1., 0., 1.]].map(scaled), lamp);
+        let scene = model.scene();
+        solve(&scene, 100, until(1e-3)).solution.triangle_exitance(&scene)
+    };
+    let expected = solve_in(1.0);
+    // Powers of two scale every number exactly; others break ties between edges of equal
+    // length, so that the mesh is another one of the same fineness (1 %: see `plates`).
+    for (unit, bound) in
+        [(2f64.powi(-20), 1e-12), (2f64.powi(20), 1e-12), (1e-6, 1e-2), (1e6, 1e-2)]
+    {
+        for (a, b) in expected.iter().zip(solve_in(unit)) {
+            assert!((a[0] - b[0]).abs() <= bound * a[0], "{unit} {a:?} {b:?}");
+        }
+    }
+}
+
+#[test]
+fn elements_are_about_as_many_as_asked() {
+    let mut model = Model::new();
+    let wall = model.surface(0.5, 0.0);
+    model.cube([wall; 6]);
+    let scene = model.scene();
+    for asked in [0, 12, 13, 100, 1000, 20_000] {
+        let mesh = Mesh::from_scene(&scene, &MeshConfig::with_elements(asked));
+        let got = mesh.elements().len();
+        assert!(got <= asked.max(12) && got + 2 >= asked, "{asked} {got}");
+    }
+}

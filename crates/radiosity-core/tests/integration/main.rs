@@ -1,0 +1,10 @@
+//! The solver against closed forms, and the mesh against its promises.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
+
+mod balance;
+mod furnace;
+mod limits;
+mod mesh;
+mod models;
+mod plates;
