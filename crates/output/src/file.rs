@@ -1,0 +1,91 @@
+//! One lit scene into one file, whole or not at all.
+
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use scene::{Scene, Solution};
+
+use crate::check::{Width, check};
+use crate::{Error, Format, Options, csv, glb, picture, ply, tri};
+
+/// A file that was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// Where it lies.
+    pub path: PathBuf,
+    /// Its length.
+    pub bytes: u64,
+}
+
+/// Writes a lit scene in the format that the path's extension names.
+///
+/// The bytes go to a temporary neighbour first, which takes the path's place when it is
+/// complete and on disk, so a reader never meets half a file, and a failure leaves the
+/// old file as it was and nothing beside it.
+///
+/// # Errors
+/// An unknown extension, a solution that does not belong to the scene or is not finite,
+/// an option outside its range, or what the file system answers.
+pub fn write_file(
+    path: &Path,
+    scene: &Scene,
+    solution: &Solution,
+    options: &Options,
+) -> Result<Written, Error> {
+    let format = Format::from_path(path)?;
+    write_beside(path, |out| write(format, out, scene, solution, options))
+        .map_err(|error| error.at(path))
+}
+
+/// Writes a lit scene into any sink.
+///
+/// # Errors
+/// As [`write_file`], without the path.
+pub fn write(
+    format: Format,
+    out: &mut dyn Write,
+    scene: &Scene,
+    solution: &Solution,
+    options: &Options,
+) -> Result<(), Error> {
+    options.check()?;
+    let width = match format {
+        Format::Csv | Format::Tri => Width::Double,
+        Format::Ply | Format::Glb | Format::Png => Width::Single,
+    };
+    check(scene, solution, width)?;
+    match format {
+        Format::Csv => csv::write(out, scene, solution),
+        Format::Tri => tri::write(out, scene, solution),
+        Format::Ply => ply::write(out, scene, solution, options.exposure),
+        Format::Glb => glb::write(out, scene, solution, options.exposure),
+        Format::Png => picture::write(out, scene, solution, options),
+    }
+}
+
+fn write_beside(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> Result<(), Error>,
+) -> Result<Written, Error> {
+    // A rename is atomic only within one file system, so the temporary is a neighbour.
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".output-").suffix(".part");
+    // Temporaries are private by default; an output is as readable as any other new file.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut temporary = builder.tempfile_in(folder).map_err(Error::write)?;
+    let mut out = BufWriter::new(temporary.as_file_mut());
+    fill(&mut out)?;
+    out.flush().map_err(Error::write)?;
+    drop(out);
+    let file = temporary.as_file();
+    file.sync_all().map_err(Error::write)?;
+    let bytes = file.metadata().map_err(Error::write)?.len();
+    // Dropping the error drops the temporary, which removes it.
+    temporary.persist(path).map_err(|e| Error::write(e.error))?;
+    Ok(Written { path: path.to_owned(), bytes })
+}

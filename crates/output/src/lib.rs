@@ -1,0 +1,24 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+pub mod camera;
+mod check;
+pub mod compare;
+pub mod csv;
+mod error;
+mod file;
+mod format;
+mod glb;
+mod options;
+pub mod picture;
+mod ply;
+pub mod tone;
+mod tri;
+mod weld;
+
+pub use compare::{Comparison, compare};
+pub use error::{Error, ErrorKind};
+pub use file::{Written, write, write_file};
+pub use format::Format;
+pub use options::Options;
+pub use tone::Exposure;

@@ -1,0 +1,83 @@
+//! Where a point of the scene lands in the picture.
+
+use glam::{DVec2, DVec3};
+use scene::Camera;
+
+use crate::{Error, ErrorKind};
+
+/// What is nearer to the eye than this share of the distance to the target is cut away.
+/// Depth is kept in f64, so it need only be far enough for the division by it.
+const NEAR_SHARE: f64 = 1e-6;
+/// A view closer than this to its up vector (sine of the angle) takes another one:
+/// below it rounding would turn the picture.
+const MIN_UP_SINE: f64 = 1e-6;
+
+/// A pinhole camera over a grid of samples.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    eye: DVec3,
+    /// Right, up, forward.
+    axes: [DVec3; 3],
+    /// Samples per unit of tangent.
+    focal: f64,
+    centre: DVec2,
+    pub(crate) near: f64,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+impl View {
+    pub(crate) fn new(camera: &Camera, (width, height): (u32, u32)) -> Result<Self, Error> {
+        let axes = basis(camera)?;
+        let centre = DVec2::new(f64::from(width), f64::from(height)) / 2.0;
+        Ok(Self {
+            eye: camera.position,
+            axes,
+            focal: centre.y / (camera.vertical_fov / 2.0).tan(),
+            centre,
+            near: NEAR_SHARE * (camera.target - camera.position).length(),
+            width,
+            height,
+        })
+    }
+
+    /// A point as right, up and forward of the eye.
+    pub(crate) fn seen(&self, point: DVec3) -> DVec3 {
+        let offset = point - self.eye;
+        DVec3::from_array(self.axes.map(|axis| offset.dot(axis)))
+    }
+
+    /// Where a seen point lands: samples from the left and from the top.
+    pub(crate) fn project(&self, seen: DVec3) -> DVec2 {
+        let slope = DVec2::new(seen.x, -seen.y) / seen.z;
+        self.centre + self.focal * slope
+    }
+}
+
+/// Right, up and forward of a camera, of unit length.
+///
+/// A camera that looks along its own up vector takes the axis nearest to perpendicular
+/// instead, x before y before z.
+pub(crate) fn basis(camera: &Camera) -> Result<[DVec3; 3], Error> {
+    let fail = || Error::new(ErrorKind::Camera(camera.name.clone()));
+    let finite = camera.position.is_finite() && camera.up.is_finite();
+    let fov = camera.vertical_fov > 0.0 && camera.vertical_fov < std::f64::consts::PI;
+    let forward = (camera.target - camera.position).try_normalize().filter(|f| f.is_finite());
+    let forward = forward.filter(|_| finite && fov).ok_or_else(fail)?;
+    let across = forward.cross(camera.up.normalize_or_zero());
+    let right = if across.length() > MIN_UP_SINE {
+        across
+    } else {
+        let size = forward.abs();
+        let axis = if size.x <= size.y && size.x <= size.z {
+            DVec3::X
+        } else if size.y <= size.z {
+            DVec3::Y
+        } else {
+            DVec3::Z
+        };
+        forward.cross(axis)
+    };
+    let right = right.normalize();
+    Ok([right, right.cross(forward), forward])
+}

@@ -1,0 +1,85 @@
+//! Rows out and rows in.
+
+use output::csv::{Row, read, rows};
+use output::{ErrorKind, Format, Options};
+use scene::Rgb;
+
+use crate::common::{bytes, shared, square};
+
+#[test]
+fn two_triangles_are_written_to_the_letter() {
+    let lit = square(Rgb::new(0.1, 2.0, 1e-9));
+    let text = String::from_utf8(bytes(Format::Csv, &lit, &Options::default())).unwrap();
+    assert_eq!(text, "triangle,area,B_r,B_g,B_b\n0,1,0.1,2,1e-9\n1,1,0.1,2,1e-9\n");
+}
+
+#[test]
+fn every_number_reads_back_to_the_same_bits() {
+    for light in [Rgb::new(0.1 + 0.2, 1.0 / 3.0, 1e300), Rgb::new(5e-324, 0.0, 254.999)] {
+        let lit = square(light);
+        let back = read(bytes(Format::Csv, &lit, &Options::default()).as_slice()).unwrap();
+        assert_eq!(back, rows(&lit.0, &lit.1).unwrap());
+        // Area 1 and equal elements: the mean is the value itself.
+        assert_eq!(back[1].exitance.0.map(f64::to_bits), light.0.map(f64::to_bits));
+    }
+}
+
+#[test]
+fn columns_go_by_name_in_any_order() {
+    let text = "ambiguous,B_b,note,B_g,B_r,se_b,se_g,se_r,area,triangle,emits\r\n\
+                0,3,x,2,1,0.3,0.2,0.1,4.5,7,1\r\n";
+    let expected = Row {
+        triangle: 7,
+        area: 4.5,
+        exitance: Rgb::new(1.0, 2.0, 3.0),
+        se: Some(Rgb::new(0.1, 0.2, 0.3)),
+        emits: true,
+        ambiguous: false,
+    };
+    assert_eq!(read(text.as_bytes()).unwrap(), [expected]);
+}
+
+#[test]
+fn errors_name_line_and_column() {
+    let header = "triangle,area,B_r,B_g,B_b,emits";
+    let cases: [(String, &str); 12] = [
+        (String::new(), "1:1: expected a first line that names the columns"),
+        ("triangle,area,B_r,B_g".into(), "1:22: expected a column named B_b"),
+        (format!("{header},area"), "1:33: a second column named area"),
+        (format!("{header},se_r"), "1:37: expected a column named se_g beside the others"),
+        (format!("{header}\n0,1,x,4,5,0"), "2:5: B_r: expected a finite number, found \"x\""),
+        (format!("{header}\n0,1,2,inf,5,0"), "2:7: B_g: expected a finite number, found \"inf\""),
+        (
+            format!("{header}\n0,-1,2,3,5,0"),
+            "2:3: area: expected a number of at least 0, found \"-1\"",
+        ),
+        (format!("{header}\n0,1,2,3,4,yes"), "2:11: emits: expected 0 or 1, found \"yes\""),
+        (
+            format!("{header}\n0,1,2,3,4,0\n-1,1,2,3,4,0"),
+            "3:1: triangle: expected a triangle's number, found \"-1\"",
+        ),
+        (format!("{header}\n0,1,2,3,4"), "2:10: 5 values for 6 columns"),
+        (format!("{header}\n0,1,2,3,4,0,ä,7"), "2:13: 8 values for 6 columns"),
+        (format!("é,{header}\né,0,1,2,,4,0"), "2:9: B_g: expected a finite number, found \"\""),
+    ];
+    for (text, message) in cases {
+        assert_eq!(read(text.as_bytes()).unwrap_err().to_string(), message, "{text}");
+    }
+    let error = read(&b"triangle,area,B_r,B_g,B_b\n0,\xff"[..]).unwrap_err();
+    assert_eq!(error.to_string(), "2:3: expected UTF-8 text");
+    assert!(matches!(error.kind(), ErrorKind::Text { line: 2, column: 3, .. }));
+    assert_eq!(error.at("a.csv").to_string(), "a.csv:2:3: expected UTF-8 text");
+}
+
+#[test]
+fn reads_the_references() {
+    let counts = [("cornell", 32, 30), ("room_onesided", 156, 116), ("blocks_onesided", 464, 456)];
+    for (name, all, used) in counts {
+        let Some(path) = shared(&format!("reference/{name}.csv")) else { return };
+        let rows = read(std::fs::File::open(path).unwrap()).unwrap();
+        assert_eq!(rows.len(), all);
+        let error = output::compare(&rows, &rows).unwrap();
+        // The counts are those of rows without either mark, by another tool.
+        assert_eq!((error.worst_e1(), error.rows_used), (0.0, used), "{name}");
+    }
+}

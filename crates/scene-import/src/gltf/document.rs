@@ -1,0 +1,114 @@
+//! The JSON, validated, and the buffers it names.
+
+use gltf::json::mesh::Semantic;
+use gltf::json::validation::Checked;
+use gltf::{Document, Gltf};
+
+use super::uri;
+use crate::open::Source;
+use crate::{Error, ErrorKind};
+
+/// Bytes of a GLB header, the shortest length it can state.
+const GLB_HEADER: u32 = 12;
+
+/// A validated document with its buffers.
+pub(super) struct Parsed {
+    pub(super) document: Document,
+    pub(super) buffers: Vec<Vec<u8>>,
+}
+
+impl Parsed {
+    /// Parses and validates, then fetches the buffers.
+    pub(super) fn new(source: &Source<'_>) -> Result<Self, Error> {
+        let fail = |cause| failure(source.name, cause);
+        check_stated_length(source)?;
+        let Gltf { document, blob } =
+            Gltf::from_slice_without_validation(source.bytes).map_err(fail)?;
+        let json = document.into_json();
+        check_positions(source.name, &json)?;
+        let document = Document::from_json(json).map_err(fail)?;
+        let buffers = buffers(source, &document, blob)?;
+        Ok(Self { document, buffers })
+    }
+}
+
+/// The gltf crate subtracts the header from the length stated in it, unchecked.
+fn check_stated_length(source: &Source<'_>) -> Result<(), Error> {
+    if source.bytes.starts_with(b"glTF") {
+        let length = source.bytes.get(8..12).and_then(|bytes| bytes.try_into().ok());
+        if length.map(u32::from_le_bytes).is_none_or(|length| length < GLB_HEADER) {
+            let message = "expected a GLB header that states the file's length";
+            return Err(Error::new(ErrorKind::Syntax, source.name, message));
+        }
+    }
+    Ok(())
+}
+
+/// The gltf crate's validation follows a primitive's POSITION before it checks the index.
+fn check_positions(file: &str, json: &gltf::json::Root) -> Result<(), Error> {
+    for (m, mesh) in json.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let position = primitive.attributes.get(&Checked::Valid(Semantic::Positions));
+            if position.is_some_and(|index| index.value() >= json.accessors.len()) {
+                let message = format!(
+                    "meshes[{m}].primitives[{p}].attributes.POSITION: expected one of {} accessors",
+                    json.accessors.len()
+                );
+                return Err(Error::new(ErrorKind::Invalid, file, message));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn buffers(
+    source: &Source<'_>,
+    document: &Document,
+    blob: Option<Vec<u8>>,
+) -> Result<Vec<Vec<u8>>, Error> {
+    let mut blob = blob;
+    let mut buffers = Vec::new();
+    for buffer in document.buffers() {
+        let fail = |reason: String| {
+            let message = format!("buffers[{}]: {reason}", buffer.index());
+            Error::new(ErrorKind::Invalid, source.name, message)
+        };
+        let data = match buffer.source() {
+            gltf::buffer::Source::Bin => {
+                blob.take().ok_or_else(|| fail("expected one binary chunk for it".to_owned()))
+            }
+            gltf::buffer::Source::Uri(uri) => uri::fetch(uri, source.folder)
+                .map_err(|reason| fail(format!("cannot be read: {reason}"))),
+        }?;
+        if data.len() < buffer.length() {
+            return Err(fail(format!("expected {} bytes, found {}", buffer.length(), data.len())));
+        }
+        buffers.push(data);
+    }
+    Ok(buffers)
+}
+
+fn failure(file: &str, cause: gltf::Error) -> Error {
+    match &cause {
+        gltf::Error::Deserialize(json) => {
+            // Only a file of bare JSON has lines to point at; a message ends with them too.
+            let (line, column) = (json.line() as u64, json.column() as u64);
+            let text = json.to_string();
+            let text =
+                text.strip_suffix(&format!(" at line {line} column {column}")).unwrap_or(&text);
+            let error = Error::new(ErrorKind::Syntax, file, format!("expected glTF JSON: {text}"));
+            let error = if line > 0 { error.at(line, column) } else { error };
+            error.because(cause)
+        }
+        gltf::Error::Validation(errors) => {
+            let first = errors.first().map(|(path, error)| format!("{path}: {error}"));
+            let mut message = format!("expected valid glTF: {}", first.unwrap_or_default());
+            if errors.len() > 1 {
+                message += &format!(" (and {} more)", errors.len() - 1);
+            }
+            Error::new(ErrorKind::Invalid, file, message).because(cause)
+        }
+        _ => Error::new(ErrorKind::Syntax, file, format!("expected a glTF file: {cause}"))
+            .because(cause),
+    }
+}

@@ -1,0 +1,148 @@
+//! glTF 2.0: JSON with buffers beside it, or one binary file.
+//!
+//! The gltf crate reads and validates the JSON. Buffers, accessors and images are read here
+//! with checked arithmetic: the crate's own readers panic on some malformed files.
+
+mod accessor;
+mod budget;
+mod document;
+mod layer;
+mod primitive;
+mod surface;
+mod uri;
+mod walk;
+
+use scene::{Camera, TriangleId};
+
+use crate::assembler::Assembler;
+use crate::open::Source;
+use crate::{DiagnosticKind, Error, Format, Imported, Options};
+use budget::Budget;
+use document::Parsed;
+use surface::Surfaces;
+use walk::Placed;
+
+/// Extensions that are understood, or that concern nothing a scene holds.
+const KNOWN_EXTENSIONS: &[&str] = &[
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_texture_transform",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_xmp_json_ld",
+];
+
+/// Triangles from one primitive under one node: the first of them, and the way to it.
+struct Run {
+    first: usize,
+    path: String,
+}
+
+/// Reads a glTF scene: the default scene, or the first, or all nodes if there is none.
+pub(crate) fn read(
+    source: &Source<'_>,
+    format: Format,
+    options: &Options,
+) -> Result<Imported, Error> {
+    let parsed = Parsed::new(source)?;
+    let mut assembler = Assembler::new(source.name, options.sides);
+    warn_about_document(&parsed, source.name, &mut assembler);
+    let mut budget = Budget::new(
+        source.name,
+        source.bytes.len() + parsed.buffers.iter().map(Vec::len).sum::<usize>(),
+    );
+    let mut surfaces = Surfaces::new(source, &parsed);
+    let mut runs = Vec::new();
+    for placed in walk::walk(&parsed.document, source.name)? {
+        let Placed { node, world } = &placed;
+        let path = format!("nodes[{}]", node.index());
+        if let Some(camera) = node.camera() {
+            match convert_camera(&camera, node, &placed) {
+                Ok(camera) => assembler.camera(camera),
+                Err(what) => assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str()),
+            }
+        }
+        if let Some(light) = node.light() {
+            let what =
+                format!("light {}: only surfaces emit", light.name().unwrap_or("without a name"));
+            assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str());
+        }
+        let Some(mesh) = node.mesh() else { continue };
+        if node.skin().is_some() {
+            let what = "skin: the mesh stands as modelled".to_owned();
+            assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str());
+        }
+        let group = match node.name().or(mesh.name()) {
+            Some(name) => assembler.new_group(name),
+            None => assembler.new_group(&format!("node {}", node.index())),
+        };
+        for primitive in mesh.primitives() {
+            let path = format!("{path}.mesh[{}].primitives[{}]", mesh.index(), primitive.index());
+            runs.push(Run { first: assembler.triangle_count(), path: path.clone() });
+            let place = primitive::Place { path: &path, mesh: mesh.index(), world: *world, group };
+            primitive::add(
+                &primitive,
+                &place,
+                &parsed,
+                &mut surfaces,
+                &mut budget,
+                &mut assembler,
+            )?;
+        }
+    }
+    Ok(assembler.finish(format, |id| place(&runs, id)))
+}
+
+fn place(runs: &[Run], id: TriangleId) -> String {
+    // Runs without triangles share their start with the next: the last of them has the id.
+    let after = runs.partition_point(|run| run.first <= id.index());
+    let run = &runs[after - 1];
+    format!("{}.triangle {}", run.path, id.index() - run.first)
+}
+
+fn warn_about_document(parsed: &Parsed, file: &str, assembler: &mut Assembler<'_>) {
+    let document = &parsed.document;
+    let mut ignore = |what: String, place: &str| {
+        assembler.warn(DiagnosticKind::Ignored { what }, None, format!("{file}: {place}"));
+    };
+    for name in document.extensions_used().filter(|name| !KNOWN_EXTENSIONS.contains(name)) {
+        ignore(format!("extension {name}"), "extensionsUsed");
+    }
+    if document.animations().len() > 0 {
+        ignore("animations: the scene stands at rest".to_owned(), "animations");
+    }
+    let read = walk::scene(document).map(|scene| scene.index());
+    for scene in document.scenes().filter(|scene| Some(scene.index()) != read) {
+        ignore(
+            format!("scene {}", scene.name().unwrap_or("without a name")),
+            &format!("scenes[{}]", scene.index()),
+        );
+    }
+}
+
+/// A camera of the scene; the error says what is left out.
+fn convert_camera(
+    camera: &gltf::Camera<'_>,
+    node: &gltf::Node<'_>,
+    placed: &Placed<'_>,
+) -> Result<Camera, String> {
+    let gltf::camera::Projection::Perspective(perspective) = camera.projection() else {
+        return Err("orthographic camera".to_owned());
+    };
+    // Cameras look along −z, with +y up.
+    let position = placed.world.w_axis.truncate();
+    let target = position - placed.world.z_axis.truncate().normalize_or_zero();
+    let up = placed.world.y_axis.truncate().normalize_or_zero();
+    let vertical_fov = f64::from(perspective.yfov());
+    let sound = position.is_finite()
+        && target != position
+        && up != glam::DVec3::ZERO
+        && vertical_fov > 0.0
+        && vertical_fov < std::f64::consts::PI;
+    if !sound {
+        return Err("camera without a direction or field of view".to_owned());
+    }
+    let name = node.name().or(camera.name());
+    let name = name.map_or_else(|| format!("camera {}", camera.index()), str::to_owned);
+    Ok(Camera { name, position, target, up, vertical_fov })
+}

@@ -1,0 +1,26 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod assembler;
+#[cfg(any(feature = "obj", feature = "gltf"))]
+mod beside;
+mod diagnostic;
+mod error;
+#[cfg(feature = "gltf")]
+mod gltf;
+mod imported;
+mod lint;
+#[cfg(feature = "obj")]
+mod obj;
+mod open;
+mod options;
+#[cfg(any(feature = "obj", feature = "gltf"))]
+mod texture;
+mod tri;
+mod units;
+
+pub use diagnostic::{Diagnostic, DiagnosticKind};
+pub use error::{Error, ErrorKind};
+pub use imported::{Format, Imported, Summary};
+pub use open::{open, open_bytes};
+pub use options::{Options, SidesRule};
