@@ -1,0 +1,46 @@
+//! Time to build each structure, per triangle.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use accel::{Bvh, BvhConfig, Octree, OctreeConfig};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+
+#[path = "../tests/integration/support/mod.rs"]
+#[allow(dead_code, clippy::print_stdout, reason = "shared with the tests, which use all of it")]
+mod support;
+
+use support::{Triangle, scenes, shared};
+
+fn bench_scene(criterion: &mut Criterion, name: &str, scene: &[Triangle]) {
+    let mut group = criterion.benchmark_group(format!("build/{name}"));
+    group.throughput(Throughput::Elements(scene.len() as u64));
+    for bins in [8, 16, 32] {
+        let config = BvhConfig { bins };
+        group.bench_function(format!("bvh_{bins}_bins"), |bencher| {
+            bencher.iter(|| Bvh::build(black_box(scene), &config));
+        });
+    }
+    group.bench_function("octree", |bencher| {
+        bencher.iter(|| Octree::build(black_box(scene), &OctreeConfig::default()));
+    });
+}
+
+fn build(criterion: &mut Criterion) {
+    for name in ["room", "church"] {
+        if let Some(scene) = shared::scene(name) {
+            bench_scene(criterion, name, &scene);
+        }
+    }
+    bench_scene(criterion, "columns", &scenes::columns(16, 16));
+}
+
+criterion_group! {
+    name = benches;
+    config = Criterion::default()
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(300))
+        .measurement_time(Duration::from_secs(1));
+    targets = build
+}
+criterion_main!(benches);

@@ -1,0 +1,24 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod aabb;
+mod block;
+mod brute_force;
+pub mod bvh;
+mod frame;
+mod hit;
+mod local;
+mod nothing;
+mod occluder;
+pub mod octree;
+mod segment;
+mod triangle;
+
+pub use brute_force::{BruteForce, BruteForceConfig};
+pub use bvh::{Bvh, BvhConfig};
+pub use frame::{ROUNDING_BAND_ULPS, rounding_band};
+pub use hit::Hit;
+pub use nothing::Nothing;
+pub use occluder::Occluder;
+pub use octree::{Octree, OctreeConfig};
+pub use segment::{NO_TRIANGLE, Segment, Target};

@@ -1,0 +1,12 @@
+//! Tests of the structures against each other and against an independent f64 reference.
+
+#![allow(clippy::print_stdout, reason = "tests report what they counted")]
+
+mod agree;
+mod batch;
+mod config;
+mod degenerate;
+mod nearest;
+mod support;
+mod validate;
+mod watertight;
