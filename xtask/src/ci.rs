@@ -1,0 +1,111 @@
+//! `cargo xtask ci`: what a change must pass, the same here as on the server.
+
+use std::path::Path;
+use std::process::Command;
+
+use clap::ValueEnum;
+use serde_json::Value;
+
+use crate::{scenes, tidy};
+
+/// One job of the pipeline.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Job {
+    /// Every file is formatted.
+    Fmt,
+    /// No lint speaks up, in libraries, programs, tests and benches.
+    Clippy,
+    /// House rules: edges between crates, manifests, sources, links.
+    Tidy,
+    /// The bundled scenes are what the code writes.
+    Scenes,
+    /// All tests, and the examples in the documentation.
+    Test,
+    /// The documentation builds without a warning.
+    Doc,
+    /// Each feature compiles alone, and each crate without any.
+    Features,
+}
+
+/// Runs one job, or all of them in the order above: the quick ones first.
+pub(crate) fn run(root: &Path, only: Option<Job>) -> Result<(), String> {
+    let jobs = Job::value_variants().iter().filter(|job| only.is_none_or(|only| only == **job));
+    jobs.copied().try_for_each(|job| run_job(root, job))
+}
+
+fn run_job(root: &Path, job: Job) -> Result<(), String> {
+    match job {
+        Job::Fmt => cargo(root, "fmt --all -- --check"),
+        Job::Clippy => cargo(root, "clippy --workspace --all-targets --locked -- --deny warnings"),
+        Job::Tidy => tidy::run(root),
+        Job::Scenes => scenes::check(&root.join("scenes")),
+        Job::Test => cargo(root, "test --workspace --locked"),
+        Job::Doc => cargo(root, "doc --workspace --no-deps --locked"),
+        Job::Features => {
+            let each = |arguments: String| cargo(root, &arguments);
+            feature_checks(&metadata(root)?).into_iter().try_for_each(each)
+        }
+    }
+}
+
+/// Runs cargo with words that contain no blanks, and shows the command first.
+fn cargo(root: &Path, arguments: &str) -> Result<(), String> {
+    println!("$ cargo {arguments}");
+    let status = cargo_command(root, arguments)
+        // Read by `cargo doc` alone; everywhere else it has no effect.
+        .env("RUSTDOCFLAGS", "-D warnings")
+        .status()
+        .map_err(|e| format!("cargo {arguments}: {e}"))?;
+    if status.success() { Ok(()) } else { Err(format!("failed: cargo {arguments}")) }
+}
+
+fn metadata(root: &Path) -> Result<Value, String> {
+    let arguments = "metadata --no-deps --format-version 1 --locked";
+    let output =
+        cargo_command(root, arguments).output().map_err(|e| format!("cargo {arguments}: {e}"))?;
+    serde_json::from_slice(&output.stdout)
+        .map_err(|e| format!("cargo {arguments}: {e}\n{}", String::from_utf8_lossy(&output.stderr)))
+}
+
+fn cargo_command(root: &Path, arguments: &str) -> Command {
+    let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".into()));
+    command.current_dir(root).args(arguments.split_whitespace());
+    command
+}
+
+/// A check without features and one for each feature, for every crate that has any.
+fn feature_checks(metadata: &Value) -> Vec<String> {
+    let mut checks = Vec::new();
+    for package in metadata["packages"].as_array().into_iter().flatten() {
+        let features = package["features"].as_object().into_iter().flat_map(|map| map.keys());
+        let features: Vec<_> = features.filter(|name| *name != "default").collect();
+        if features.is_empty() {
+            continue;
+        }
+        let name = package["name"].as_str().unwrap_or_default();
+        let alone = format!("check --package {name} --locked --no-default-features");
+        checks.push(alone.clone());
+        checks.extend(features.iter().map(|feature| format!("{alone} --features {feature}")));
+    }
+    checks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_feature_is_checked_alone() {
+        let metadata = serde_json::json!({ "packages": [
+            { "name": "plain", "features": {} },
+            { "name": "many", "features": { "default": ["obj"], "gltf": [], "obj": [] } },
+        ] });
+        let alone = "check --package many --locked --no-default-features";
+        let expected = [
+            alone.to_owned(),
+            format!("{alone} --features gltf"),
+            format!("{alone} --features obj"),
+        ];
+        assert_eq!(feature_checks(&metadata), expected);
+    }
+}

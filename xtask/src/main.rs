@@ -1,0 +1,57 @@
+//! Development tasks behind `cargo xtask`.
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "xtask is a terminal program")]
+
+mod ci;
+mod scenes;
+mod tidy;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Development tasks of this workspace.
+#[derive(Parser)]
+#[command(name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Run what a change must pass, or one job of it.
+    Ci { job: Option<ci::Job> },
+    /// Check the house rules: edges between crates, manifests, sources, links.
+    Tidy,
+    /// Write the bundled scenes into scenes/.
+    Scenes {
+        /// Write nothing; fail when a committed scene differs.
+        #[arg(long)]
+        check: bool,
+    },
+}
+
+fn main() -> ExitCode {
+    let root = root();
+    let result = match Arguments::parse().task {
+        Task::Ci { job } => ci::run(&root, job),
+        Task::Tidy => tidy::run(&root),
+        Task::Scenes { check: true } => scenes::check(&root.join("scenes")),
+        Task::Scenes { check: false } => scenes::write(&root.join("scenes")),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The workspace's root folder.
+fn root() -> PathBuf {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
+    manifest.parent().expect("xtask lies in the workspace's root").to_path_buf()
+}
