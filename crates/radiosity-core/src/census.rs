@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use accel::Bvh;
 use glam::DVec3;
-use scene::{Rgb, Scene, Sides};
+use scene::{Rgb, Scene, Sides, TriangleId};
 
 use crate::config::Exchange;
 use crate::executor::Executor;
@@ -19,11 +19,11 @@ use crate::shooting::SEGMENT_LIFT;
 /// in a closed scene any number gives the exact 0.
 const DIRECTIONS: u32 = 32;
 
-/// Rays start this share of the way to the patch's centroid off its rim, where a neighbour
+/// Rays start this share of the way to an element's centroid off its rim, where a neighbour
 /// may lie in the ray's own plane.
 const OFF_RIM: f64 = 0.02;
 
-/// Shares of the light leaving a patch.
+/// Shares of what leaves a patch, if its elements shine alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fate {
     /// Leaves the scene.
@@ -32,10 +32,35 @@ pub struct Fate {
     pub meets_back: f64,
 }
 
-/// The fates of all patches' light.
+/// Where one sampled direction ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum End {
+    /// At a side that takes light.
+    #[default]
+    Received,
+    Back,
+    Nowhere,
+}
+
+/// One direction from one element of a patch.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Sample {
+    element: u32,
+    end: End,
+}
+
+/// The sampled directions of all patches: 8 bytes each, 256 a patch.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Census {
-    pub(crate) fates: Vec<Fate>,
+    /// [`DIRECTIONS`] for each patch.
+    samples: Vec<Sample>,
+}
+
+/// A shot's power that met backs, and that left the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Lost {
+    pub(crate) wrong_side: Rgb,
+    pub(crate) escaped: Rgb,
 }
 
 impl Census {
@@ -48,61 +73,108 @@ impl Census {
         exchange: Exchange,
         executor: &E,
     ) -> Self {
-        let mut work: Vec<(u32, &Patch, Fate)> =
-            (0u32..).zip(&mesh.patches).map(|(n, p)| (n, p, Fate::default())).collect();
-        executor.for_each(&mut work, |(number, patch, fate)| {
-            *fate = fate_of(scene, mesh, bvh, exchange, *number, patch);
+        let mut samples = vec![Sample::default(); mesh.patches.len() * DIRECTIONS as usize];
+        let slots = samples.chunks_mut(DIRECTIONS as usize);
+        let mut work: Vec<_> = (0u32..).zip(&mesh.patches).zip(slots).collect();
+        executor.for_each(&mut work, |((number, patch), slots)| {
+            // Patches of one plane must not all look the same way.
+            let shift = spread(*number);
+            for (i, slot) in (0..).zip(slots.iter_mut()) {
+                *slot = sample(scene, mesh, bvh, exchange, patch, i, shift);
+            }
         });
-        Self { fates: work.into_iter().map(|w| w.2).collect() }
+        Self { samples }
+    }
+
+    /// Whether there are no samples: an empty mesh, or no census taken.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.samples.is_empty()
     }
 
     /// The fates, in the order of the mesh's patches.
-    #[must_use]
-    pub fn fates(&self) -> &[Fate] {
-        &self.fates
+    pub fn fates(&self) -> impl Iterator<Item = Fate> + '_ {
+        self.samples.chunks(DIRECTIONS as usize).map(|samples| {
+            let share = |end| {
+                let n = samples.iter().filter(|s| s.end == end).count();
+                n as f64 / f64::from(DIRECTIONS)
+            };
+            Fate { escapes: share(End::Nowhere), meets_back: share(End::Back) }
+        })
     }
 
-    /// The power that met backs, of a shot's power.
-    pub(crate) fn wrong_side(&self, patch: usize, power: Rgb) -> Rgb {
-        self.fates.get(patch).map_or(Rgb::ZERO, |f| power * f.meets_back)
+    /// Whether some sampled direction meets a back or leaves the scene.
+    pub(crate) fn any_lost(&self) -> bool {
+        self.samples.iter().any(|s| s.end != End::Received)
     }
 
-    /// The power that left the scene, of a shot's power.
-    pub(crate) fn escaped(&self, patch: usize, power: Rgb) -> Rgb {
-        self.fates.get(patch).map_or(Rgb::ZERO, |f| power * f.escapes)
+    /// What a shot loses: each sample stands for the light of its own element, so that a
+    /// dark corner of a patch behind a wall does not speak for the lit rest.
+    pub(crate) fn lost(&self, patch: usize, power: Rgb, unshot: &[Rgb]) -> Lost {
+        let first = patch * DIRECTIONS as usize;
+        let Some(samples) = self.samples.get(first..first + DIRECTIONS as usize) else {
+            return Lost::default();
+        };
+        let mut all = Rgb::ZERO;
+        let mut ends = Lost::default();
+        for sample in samples {
+            let light = unshot[sample.element as usize];
+            all += light;
+            match sample.end {
+                End::Received => {}
+                End::Back => ends.wrong_side += light,
+                End::Nowhere => ends.escaped += light,
+            }
+        }
+        let share = |part: Rgb| {
+            Rgb([0, 1, 2].map(|c| if all[c] > 0.0 { power[c] * (part[c] / all[c]) } else { 0.0 }))
+        };
+        Lost { wrong_side: share(ends.wrong_side), escaped: share(ends.escaped) }
     }
 }
 
-fn fate_of(
+/// Follows the i-th direction of a patch.
+fn sample(
     scene: &Scene,
     mesh: &Mesh,
     bvh: &Bvh,
     exchange: Exchange,
-    number: u32,
     patch: &Patch,
-) -> Fate {
-    // Patches of one plane must not all look the same way.
-    let shift = spread(number);
-    let node = &mesh.nodes[patch.node as usize];
-    let normal = mesh.roots[node.root as usize].normal;
-    let corners = mesh.corners(node.vertices);
-    let (mut escapes, mut meets_back) = (0u32, 0u32);
-    for i in 0..DIRECTIONS {
-        // In the paired rule every other direction leaves from the back.
-        let side = if exchange == Exchange::Paired && i % 2 == 1 { -1.0 } else { 1.0 };
-        let out = normal * side;
-        let origin = place(corners, i) + out * (SEGMENT_LIFT * mesh.extent);
-        match bvh.nearest(origin, direction(out, i, shift)) {
-            None => escapes += 1,
-            Some(hit) => {
-                let triangle = scene::TriangleId(hit.triangle);
-                let takes_both = scene.material_of(triangle).sides == Sides::Both;
-                meets_back += u32::from(!takes_both && hit.front != (side > 0.0));
-            }
+    i: u32,
+    shift: [f64; 2],
+) -> Sample {
+    let element = element_of(mesh, patch, i);
+    let start = &mesh.elements[element as usize];
+    // In the paired rule every other direction leaves from the back.
+    let side = if exchange == Exchange::Paired && i % 2 == 1 { -1.0 } else { 1.0 };
+    let out = mesh.root_of(start).normal * side;
+    let origin = place(mesh.corners(start.vertices), i) + out * (SEGMENT_LIFT * mesh.extent);
+    let end = match bvh.nearest(origin, direction(out, i, shift)) {
+        None => End::Nowhere,
+        Some(hit) => {
+            let takes_both = scene.material_of(TriangleId(hit.triangle)).sides == Sides::Both;
+            let received = takes_both || hit.front == (side > 0.0);
+            if received { End::Received } else { End::Back }
+        }
+    };
+    Sample { element, end }
+}
+
+/// The element that the i-th direction starts from: shared out by area.
+fn element_of(mesh: &Mesh, patch: &Patch, i: u32) -> u32 {
+    let area_of = |e: u32| mesh.elements[e as usize].area;
+    let total: f64 = patch.elements.clone().map(area_of).sum();
+    // Odd steps through the directions, so that neighbours do not start beside each other.
+    const STEP: u32 = 13;
+    let wanted = total * (f64::from((i * STEP) % DIRECTIONS) + 0.5) / f64::from(DIRECTIONS);
+    let mut passed = 0.0;
+    for e in patch.elements.clone() {
+        passed += area_of(e);
+        if passed > wanted {
+            return e;
         }
     }
-    let share = |n: u32| f64::from(n) / f64::from(DIRECTIONS);
-    Fate { escapes: share(escapes), meets_back: share(meets_back) }
+    patch.elements.end - 1
 }
 
 /// The i-th of a sequence of points spread over the unit square: multiples of the powers of

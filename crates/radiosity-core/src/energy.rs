@@ -89,19 +89,11 @@ impl Ledger {
         worst
     }
 
-    /// A term over the emitted power, worst channel; 0 without light.
+    /// A term over the emitted power, all channels together; 0 without light.
     #[must_use]
     pub fn share(&self, term: Rgb) -> f64 {
-        let mut worst = 0.0f64;
-        for c in 0..3 {
-            if self.emitted[c] > 0.0 {
-                let share = term[c] / self.emitted[c];
-                if share.abs() > worst.abs() {
-                    worst = share;
-                }
-            }
-        }
-        worst
+        let emitted = self.emitted.sum();
+        if emitted > 0.0 { term.sum() / emitted } else { 0.0 }
     }
 }
 

@@ -70,6 +70,7 @@ impl Index<usize> for Rgb {
 impl Add for Rgb {
     type Output = Self;
 
+    #[inline]
     fn add(self, o: Self) -> Self {
         Self([self.0[0] + o.0[0], self.0[1] + o.0[1], self.0[2] + o.0[2]])
     }
@@ -78,6 +79,7 @@ impl Add for Rgb {
 impl Sub for Rgb {
     type Output = Self;
 
+    #[inline]
     fn sub(self, o: Self) -> Self {
         Self([self.0[0] - o.0[0], self.0[1] - o.0[1], self.0[2] - o.0[2]])
     }
@@ -87,6 +89,7 @@ impl Sub for Rgb {
 impl Mul for Rgb {
     type Output = Self;
 
+    #[inline]
     fn mul(self, o: Self) -> Self {
         Self([self.0[0] * o.0[0], self.0[1] * o.0[1], self.0[2] * o.0[2]])
     }
@@ -95,6 +98,7 @@ impl Mul for Rgb {
 impl Mul<f64> for Rgb {
     type Output = Self;
 
+    #[inline]
     fn mul(self, k: f64) -> Self {
         self.map(|c| c * k)
     }
@@ -103,18 +107,21 @@ impl Mul<f64> for Rgb {
 impl Div<f64> for Rgb {
     type Output = Self;
 
+    #[inline]
     fn div(self, k: f64) -> Self {
         self.map(|c| c / k)
     }
 }
 
 impl AddAssign for Rgb {
+    #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 
 impl SubAssign for Rgb {
+    #[inline]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }

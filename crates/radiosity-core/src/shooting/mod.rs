@@ -14,7 +14,7 @@ mod transfer;
 use accel::Occluder;
 use scene::{Rgb, Solution};
 
-use crate::census::Census;
+use crate::census::{Census, Lost};
 use crate::config::{Exchange, ShootingConfig};
 use crate::energy::{Ledger, RgbSum};
 use crate::executor::Executor;
@@ -161,12 +161,13 @@ impl<'a, E: Executor> Shooting<'a, E> {
     pub fn step(&mut self) {
         let Some(shooter) = select::brightest(&self.state.patch_power) else { return };
         let power = self.state.patch_power[shooter] * sides(self.config.exchange);
+        let lost = self.census.lost(shooter, power, &self.state.unshot);
         self.transfer(shooter);
         for e in self.mesh.patches[shooter].elements.clone() {
             self.state.unshot[e as usize] = Rgb::ZERO;
         }
         commit::commit(self.mesh, &self.arriving, &self.near, &mut self.state, self.executor);
-        self.account(shooter, power);
+        self.account(power, lost);
         self.shots += 1;
         let unshot = self.unshot_share();
         if unshot < self.lowest.0 * (1.0 - STALL_FALL) {
@@ -226,10 +227,9 @@ impl<'a, E: Executor> Shooting<'a, E> {
     /// Whether light in some lit channel can go nowhere: every reflectance is 1, and no
     /// sampled direction meets a back or leaves the scene.
     fn nothing_absorbs(&self) -> bool {
-        let keeps = |f: &crate::census::Fate| f.escapes == 0.0 && f.meets_back == 0.0;
         (0..3).any(|c| self.emitted[c] > 0.0 && self.mean[c] == 0.0)
-            && !self.census.fates.is_empty()
-            && self.census.fates.iter().all(keeps)
+            && !self.census.is_empty()
+            && !self.census.any_lost()
     }
 
     /// An exitance over the scene's mean irradiance, brightest channel.
@@ -287,18 +287,16 @@ impl<'a, E: Executor> Shooting<'a, E> {
     }
 
     /// Books one shot's power: what no element received met a back or escaped.
-    fn account(&mut self, shooter: usize, power: Rgb) {
-        let mut lost = RgbSum::default();
-        lost.add(power);
+    fn account(&mut self, power: Rgb, sampled: Lost) {
+        let mut rest = RgbSum::default();
+        rest.add(power);
         for received in &self.state.patch_received {
-            lost.add(*received * -1.0);
+            rest.add(*received * -1.0);
         }
-        let lost = lost.value();
-        let wrong_side = self.census.wrong_side(shooter, power);
-        self.wrong_side.add(wrong_side);
-        self.escaped.add(lost - wrong_side);
-        let none = self.census.fates.is_empty();
-        self.sampled_escape.add(if none { lost } else { self.census.escaped(shooter, power) });
+        let rest = rest.value();
+        self.wrong_side.add(sampled.wrong_side);
+        self.escaped.add(rest - sampled.wrong_side);
+        self.sampled_escape.add(if self.census.is_empty() { rest } else { sampled.escaped });
     }
 }
 

@@ -87,12 +87,14 @@ impl Near {
                 self.consider(mesh, &source, e);
             }
         }
-        self.arriving.clear();
         self.arriving.resize(self.points.len(), Rgb::ZERO);
     }
 
     /// The mean irradiance over a near element, or `None` if it is not near.
     pub(super) fn mean(&self, element: u32) -> Option<Rgb> {
+        if self.elements.is_empty() {
+            return None;
+        }
         let at = self.elements.partition_point(|n| n.element < element);
         let near = self.elements.get(at).filter(|n| n.element == element)?;
         let range = near.first as usize..near.last as usize;

@@ -1,0 +1,234 @@
+//! The command line as it is typed.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+/// Turns a triangle scene into its diffuse global illumination.
+///
+/// Without a command, solves the bundled Cornell box and writes out/cornell.glb, .png, .csv
+/// and .json.
+#[derive(Debug, Parser)]
+#[command(name = "radiosity", version, max_term_width = 100)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Light a scene and write it out
+    Solve(SolveArgs),
+    /// Say what a scene file holds, what looks wrong in it, and what a solve would use
+    Plan(PlanArgs),
+    /// Rewrite a scene file in another format, unlit
+    Convert(ConvertArgs),
+    /// Measure how far two solutions (.csv) are apart
+    Compare(CompareArgs),
+}
+
+/// How a scene file is read.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct ReadArgs {
+    /// Sides that emit, receive and reflect: as the scene says, all fronts, all both sides,
+    /// or `paired` (surfaces exchange light front to front and back to back, sharing one
+    /// exitance: the rule of an older program, for comparison)
+    #[arg(long, value_enum, default_value_t = SidesArg::Scene)]
+    pub(crate) sides: SidesArg,
+
+    /// Factor on the light of emitters (.tri only)
+    #[arg(long, value_name = "X", default_value_t = 1.0)]
+    pub(crate) light: f64,
+
+    /// Reflectance of a surface whose front colour is 255 (.tri only)
+    #[arg(long, value_name = "X", default_value_t = 0.5)]
+    pub(crate) reflect: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SidesArg {
+    Scene,
+    Front,
+    Both,
+    Paired,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum AccelArg {
+    /// The fastest for the scene: bvh
+    Auto,
+    /// Octree walked by 3D-DDA
+    Octree,
+    /// Bounding volume hierarchy
+    Bvh,
+    /// Nothing blocks: right for convex scenes alone
+    None,
+}
+
+/// How finely and how long.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct WorkArgs {
+    /// Split the scene into about this many elements [default: 10000, or twice the scene's
+    /// triangles]
+    #[arg(long, value_name = "N")]
+    pub(crate) elements: Option<usize>,
+
+    /// Which structure finds what blocks the light
+    #[arg(long, value_enum, default_value_t = AccelArg::Auto)]
+    pub(crate) accel: AccelArg,
+
+    /// Threads; 0 for as many as the machine has. The result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  radiosity solve room.tri -o room.csv                       exitance of each input triangle
+  radiosity solve hall.obj -o hall.glb -o hall.png           lit model and picture
+  radiosity solve room.tri --elements 50000 --converge 0.01% -o fine.csv --report fine.json
+
+Formats by extension:
+  .csv  triangle,area,B_r,B_g,B_b: area mean of exitance, a row per input triangle
+  .tri  the elements, exitance as colours 0-255     .ply  elements with float exitance
+  .glb  vertex colours and linear _RADIOSITY        .png  a picture
+
+Exit codes: 0 done, 1 failed, 2 wrong command line.")]
+pub(crate) struct SolveArgs {
+    /// Scene file: .tri, .obj (with its .mtl), .gltf or .glb [default: the bundled Cornell box]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: Option<PathBuf>,
+
+    /// Where to write, as often as you like; the extension names the format, `-` is CSV on
+    /// stdout
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Vec<PathBuf>,
+
+    /// Write everything measured as JSON (docs/report.md says what each field is)
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
+
+    /// Stop when unshot power is at most this share of the emitted power, as 1e-3 or 0.1%
+    #[arg(long, value_name = "X", default_value = "1e-3", value_parser = share)]
+    pub(crate) converge: f64,
+
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+
+    #[command(flatten)]
+    pub(crate) picture: PictureArgs,
+}
+
+/// How .png, and the colours in .ply and .glb, look.
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "Pictures")]
+pub(crate) struct PictureArgs {
+    /// Camera of the scene to look through, by name [default: the first, or one chosen to
+    /// see most of the scene]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) camera: Option<String>,
+
+    /// Picture size in pixels
+    #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = size)]
+    pub(crate) size: (u32, u32),
+
+    /// Brighten by this many stops (doublings), relative to the automatic exposure
+    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub(crate) exposure: f64,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct PlanArgs {
+    /// Scene file: .tri, .obj (with its .mtl), .gltf or .glb
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+A .tri file holds a scene again; .glb and .ply hold the geometry with its materials, showing
+emittance alone. What the target format cannot hold is listed as warnings.")]
+pub(crate) struct ConvertArgs {
+    /// Scene file to read: .tri, .obj, .gltf or .glb
+    #[arg(value_name = "IN")]
+    pub(crate) input: PathBuf,
+
+    /// File to write: .tri, .glb or .ply
+    #[arg(value_name = "OUT")]
+    pub(crate) output: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Both files have the columns triangle,area,B_r,B_g,B_b. B may also have se_r,se_g,se_b (its
+standard error) and emits,ambiguous (1 leaves the row out).
+
+  E1    sum of area * |A - B| over sum of area * B: the relative error of the power
+  E2    root of: sum of area * (A - B)^2 over sum of area * B^2
+  Einf  largest |A - B| over the area mean of B")]
+pub(crate) struct CompareArgs {
+    /// The solution to judge
+    #[arg(value_name = "A")]
+    pub(crate) ours: PathBuf,
+
+    /// The reference
+    #[arg(value_name = "B")]
+    pub(crate) reference: PathBuf,
+
+    /// Fail (exit code 1) if E1 of the worst channel is above this, as 0.03 or 3%
+    #[arg(long, value_name = "X", value_parser = share)]
+    pub(crate) at_most: Option<f64>,
+}
+
+/// A share: `1e-3` or `0.1%`.
+fn share(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.strip_suffix('%') {
+        Some(number) => (number.trim_end(), 0.01),
+        None => (text, 1.0),
+    };
+    match number.parse::<f64>() {
+        Ok(x) if (0.0..=1.0).contains(&(x * unit)) => Ok(x * unit),
+        _ => Err("expected a share from 0 to 1, such as 1e-3 or 0.1%".into()),
+    }
+}
+
+/// A size in pixels: `1024x768`.
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let side = |t: &str| t.parse::<u32>().ok().filter(|n| (1..=16_384).contains(n));
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(w, h)| Some((side(w)?, side(h)?)))
+        .ok_or_else(|| "expected a width and a height from 1 to 16384, such as 1024x768".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn shares_and_sizes() {
+        assert_eq!(share("1e-3"), Ok(1e-3));
+        assert_eq!(share("0.1%"), Ok(0.1 * 0.01));
+        assert!(["-1", "2", "nan", "x", "120%", ""].iter().all(|t| share(t).is_err()));
+        assert_eq!(size("640x480"), Ok((640, 480)));
+        assert!(["640", "0x1", "1x99999", "x"].iter().all(|t| size(t).is_err()));
+    }
+}

@@ -1,0 +1,48 @@
+//! `radiosity convert`: a scene file in another format, unlit.
+
+use output::Format;
+use tri_io::Writer;
+
+use crate::args::ConvertArgs;
+use crate::commands::solve;
+use crate::failure::Failure;
+use crate::screen::{self, say};
+use crate::{files, settings};
+
+/// Reads a scene and writes it again.
+pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
+    let path = &args.output;
+    let format = match Format::from_path(path) {
+        Ok(format @ (Format::Tri | Format::Glb | Format::Ply)) => format,
+        _ => {
+            let message = format!("{}: expected a name in .tri, .glb or .ply", path.display());
+            return Err(Failure::Usage(message));
+        }
+    };
+    let read = settings::read(&args.read)?;
+    files::check(path)?;
+    let (file, imported) = solve::open(Some(&args.input), &read)?;
+    say(&format!("{file}: {}", imported.summary));
+    screen::diagnostics(&imported.diagnostics);
+    let scene = &imported.scene;
+    match format {
+        Format::Tri => {
+            let (records, losses) = scene_import::tri_records(scene, &read.options);
+            screen::diagnostics(&losses);
+            output::replace_file(path, |out| {
+                let mut writer = Writer::new(out);
+                for record in &records {
+                    writer.write(record)?;
+                }
+                writer.finish()?;
+                Ok(())
+            })?;
+        }
+        _ => {
+            let options = output::Options::default();
+            output::write_file(path, scene, &output::unlit(scene), &options)?;
+        }
+    }
+    say(&format!("written: {}", path.display()));
+    Ok(())
+}

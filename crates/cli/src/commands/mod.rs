@@ -1,0 +1,6 @@
+//! One file per command.
+
+pub(crate) mod compare;
+pub(crate) mod convert;
+pub(crate) mod plan;
+pub(crate) mod solve;

@@ -1,0 +1,191 @@
+//! `radiosity solve`: light a scene and write it out.
+
+use std::path::Path;
+use std::time::Instant;
+
+use output::Format;
+use radiosity_core::StopReason;
+use scene::Scene;
+use scene_import::Imported;
+
+use crate::args::{AccelArg, PictureArgs};
+use crate::failure::Failure;
+use crate::pipeline::{self, Prepared, Solved};
+use crate::report::{Report, Run};
+use crate::screen::{self, count, percent, say, seconds};
+use crate::settings::{self, Read, Solve, Target, Work};
+use crate::{bundled, files};
+
+/// Where the program without arguments writes.
+const BUNDLED_OUTPUTS: [&str; 3] = ["out/cornell.glb", "out/cornell.png", "out/cornell.csv"];
+const BUNDLED_REPORT: &str = "out/cornell.json";
+
+/// More wrong-side light than this share of the emitted power is worth a warning: the
+/// sampling alone finds less in a scene that is rightly wound.
+const WRONG_SIDE_WORTH_SAYING: f64 = 1e-3;
+
+/// Solves the bundled scene into the folder `out`.
+pub(crate) fn bundled() -> Result<(), Failure> {
+    std::fs::create_dir_all("out").map_err(|e| Failure::Failed(format!("out: {e}")))?;
+    run(&Solve {
+        scene: None,
+        outputs: BUNDLED_OUTPUTS.map(|p| Target::File(p.into())).into(),
+        report: Some(BUNDLED_REPORT.into()),
+        converge: 1e-3,
+        work: Work { elements: None, accel: AccelArg::Auto, threads: 0 },
+        read: Read {
+            options: scene_import::Options::default(),
+            exchange: radiosity_core::Exchange::OneSided,
+        },
+        picture: PictureArgs { camera: None, size: (1024, 768), exposure: 0.0 },
+    })
+}
+
+/// Reads, solves, writes, and says what happened.
+pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
+    let paths = settings.outputs.iter().filter_map(|t| match t {
+        Target::File(path) => Some(path),
+        Target::Stdout => None,
+    });
+    for path in paths.chain(&settings.report) {
+        files::check(path)?;
+    }
+    let clock = Instant::now();
+    let (file, imported) = open(settings.scene.as_deref(), &settings.read)?;
+    let read_seconds = clock.elapsed().as_secs_f64();
+    say(&format!("{file}: {}", imported.summary));
+    screen::diagnostics(&imported.diagnostics);
+    let options = settings::output_options(&settings.picture, &imported.scene)?;
+    check_paired(&imported.scene, &settings.read)?;
+
+    let prepared = pipeline::prepare(&imported.scene, &settings.work, &settings.read)?;
+    say_prepared(&prepared);
+    let solved = pipeline::shoot(&prepared, &settings.read, settings.converge)?;
+    say_solved(&solved);
+
+    let clock = Instant::now();
+    let mut outputs = Vec::new();
+    for target in &settings.outputs {
+        outputs.push(write(target, &imported.scene, &solved, &options)?);
+    }
+    let output_seconds = clock.elapsed().as_secs_f64();
+    if let Some(path) = &settings.report {
+        let run = Run {
+            file: &file,
+            imported: &imported,
+            read: &settings.read,
+            converge: settings.converge,
+            prepared: &prepared,
+            solved: &solved,
+            read_seconds,
+            output_seconds,
+            outputs: outputs.clone(),
+        };
+        Report::of(run).write(path)?;
+        outputs.push(path.display().to_string());
+    }
+    say_times(&prepared, &solved, read_seconds, output_seconds);
+    say(&format!("written: {}", outputs.join(", ")));
+    Ok(())
+}
+
+/// Opens a file, or the bundled scene.
+pub(crate) fn open(path: Option<&Path>, read: &Read) -> Result<(String, Imported), Failure> {
+    match path {
+        Some(path) => Ok((path.display().to_string(), scene_import::open(path, &read.options)?)),
+        None => Ok((bundled::NAME.to_owned(), bundled::open(&read.options)?)),
+    }
+}
+
+/// The paired rule re-emits on both sides: above one half, light would grow for ever.
+pub(crate) fn check_paired(scene: &Scene, read: &Read) -> Result<(), Failure> {
+    const MOST: f64 = 0.5;
+    if read.exchange != radiosity_core::Exchange::Paired {
+        return Ok(());
+    }
+    match scene.materials().iter().find(|m| m.reflectance.max_channel() > MOST) {
+        None => Ok(()),
+        Some(m) => Err(Failure::Failed(format!(
+            "--sides paired: material {:?} has reflectance {}, expected at most {MOST}: paired \
+             surfaces re-emit what they reflect on both sides",
+            m.name,
+            m.reflectance.max_channel()
+        ))),
+    }
+}
+
+fn write(
+    target: &Target,
+    scene: &Scene,
+    solved: &Solved,
+    options: &output::Options,
+) -> Result<String, Failure> {
+    match target {
+        Target::File(path) => {
+            output::write_file(path, scene, &solved.solution, options)?;
+            Ok(path.display().to_string())
+        }
+        Target::Stdout => {
+            let mut out = std::io::BufWriter::new(std::io::stdout().lock());
+            output::write(Format::Csv, &mut out, scene, &solved.solution, options)?;
+            std::io::Write::flush(&mut out).map_err(|e| Failure::Failed(format!("stdout: {e}")))?;
+            Ok("stdout".into())
+        }
+    }
+}
+
+fn say_prepared(prepared: &Prepared) {
+    let mesh = &prepared.mesh;
+    say(&format!(
+        "{} elements in {} patches, {} receiver points; occluders: {}; {} {}",
+        count(mesh.elements().len() as u64),
+        count(mesh.patches().len() as u64),
+        count(mesh.points().len() as u64),
+        prepared.occluder_name,
+        prepared.threads(),
+        if prepared.threads() == 1 { "thread" } else { "threads" },
+    ));
+}
+
+fn say_solved(solved: &Solved) {
+    let (work, ledger) = (&solved.work, &solved.ledger);
+    if solved.reason == StopReason::NoLight {
+        screen::warning("nothing emits: the scene stays dark");
+        return;
+    }
+    say(&format!(
+        "{} shots, {} segments, {} form factors; {} of the emitted power unshot",
+        count(work.shots),
+        count(work.rays),
+        count(work.form_factors),
+        percent(work.unshot)
+    ));
+    say(&format!(
+        "energy: absorbed {}, escaped {}, wrong side {}, unshot {} (sum off by {:.0e})",
+        percent(ledger.share(ledger.absorbed)),
+        percent(ledger.share(ledger.escaped)),
+        percent(ledger.share(ledger.wrong_side)),
+        percent(ledger.share(ledger.unshot)),
+        ledger.imbalance()
+    ));
+    let wrong_side = ledger.share(ledger.wrong_side);
+    if wrong_side > WRONG_SIDE_WORTH_SAYING {
+        screen::warning(&format!(
+            "wrong side: {} of the power meets the backs of one-sided surfaces and is absorbed \
+             there; --sides both lights both sides",
+            percent(wrong_side)
+        ));
+    }
+}
+
+fn say_times(prepared: &Prepared, solved: &Solved, read: f64, output: f64) {
+    say(&format!(
+        "time: read {}, mesh {}, occluder {}, census {}, shooting {}, output {}",
+        seconds(read),
+        seconds(prepared.mesh_seconds),
+        seconds(prepared.occluder_seconds),
+        seconds(prepared.census_seconds),
+        seconds(solved.seconds),
+        seconds(output)
+    ));
+}

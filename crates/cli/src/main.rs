@@ -1,0 +1,42 @@
+//! The `radiosity` program: from a scene file to a lit scene with a report.
+//!
+//! Raw flags (`args`) become checked settings (`settings`, pure), which a command runs
+//! (`commands`). `pipeline` is the way of the light, one call per arrow.
+
+mod args;
+mod bundled;
+mod commands;
+mod failure;
+mod files;
+mod pipeline;
+mod report;
+mod screen;
+mod settings;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Args, Command};
+use failure::Failure;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    let result = match args.command {
+        None => commands::solve::bundled(),
+        Some(Command::Solve(args)) => settings::solve(args).and_then(|s| commands::solve::run(&s)),
+        Some(Command::Plan(args)) => commands::plan::run(&args),
+        Some(Command::Convert(args)) => commands::convert::run(&args),
+        Some(Command::Compare(args)) => commands::compare::run(&args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            screen::error(&failure.to_string());
+            ExitCode::from(match failure {
+                Failure::Usage(_) => 2,
+                Failure::Failed(_) => 1,
+            })
+        }
+    }
+}

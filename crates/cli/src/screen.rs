@@ -1,0 +1,95 @@
+//! Everything the program says: messages on stderr, results of commands on stdout.
+
+use std::io::Write;
+
+/// Says something on stderr. A reader that went away is no reason to fail.
+pub(crate) fn say(line: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+/// Says why the program fails.
+pub(crate) fn error(message: &str) {
+    say(&format!("radiosity: error: {message}"));
+}
+
+/// Says what should be looked at.
+pub(crate) fn warning(message: &str) {
+    say(&format!("radiosity: warning: {message}"));
+}
+
+/// Prints a line of a command's result on stdout.
+pub(crate) fn result(line: &str) {
+    let _ = writeln!(std::io::stdout().lock(), "{line}");
+}
+
+/// Warnings of one kind shown before the rest are only counted.
+const SHOWN: usize = 5;
+
+/// Says the warnings of an import, a few of each kind, and how many more there are.
+pub(crate) fn diagnostics(diagnostics: &[scene_import::Diagnostic]) {
+    let mut kinds: Vec<(std::mem::Discriminant<_>, usize)> = Vec::new();
+    for diagnostic in diagnostics {
+        let kind = std::mem::discriminant(&diagnostic.kind);
+        let at = kinds.iter().position(|k| k.0 == kind).unwrap_or_else(|| {
+            kinds.push((kind, 0));
+            kinds.len() - 1
+        });
+        kinds[at].1 += 1;
+        if kinds[at].1 <= SHOWN {
+            warning(&diagnostic.to_string());
+        }
+    }
+    let hidden: usize = kinds.iter().map(|k| k.1.saturating_sub(SHOWN)).sum();
+    if hidden > 0 {
+        warning(&format!("and {hidden} more like these; `radiosity plan` lists all"));
+    }
+}
+
+/// A count with thousands set apart: 1,234,567.
+pub(crate) fn count(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A share as a percentage with three digits.
+pub(crate) fn percent(share: f64) -> String {
+    let percent = share * 100.0;
+    match percent.abs() {
+        0.0 => "0 %".into(),
+        p if p < 0.001 => format!("{percent:.1e} %"),
+        p if p < 1.0 => format!("{percent:.3} %"),
+        _ => format!("{percent:.1} %"),
+    }
+}
+
+/// Seconds, as long as they matter.
+pub(crate) fn seconds(s: f64) -> String {
+    match s {
+        s if s < 1e-3 => format!("{:.0} µs", s * 1e6),
+        s if s < 1.0 => format!("{:.1} ms", s * 1e3),
+        s => format!("{s:.2} s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(count(0), "0");
+        assert_eq!(count(999), "999");
+        assert_eq!(count(1000), "1,000");
+        assert_eq!(count(12_345_678), "12,345,678");
+        assert_eq!(percent(0.25), "25.0 %");
+        assert_eq!(percent(-0.0012), "-0.120 %");
+        assert_eq!(seconds(0.0123), "12.3 ms");
+    }
+}

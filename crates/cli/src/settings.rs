@@ -1,0 +1,195 @@
+//! The command line resolved: defaults filled in, contradictions refused. Pure.
+
+use std::path::PathBuf;
+
+use output::{Exposure, Format};
+use radiosity_core::{Exchange, MeshConfig};
+use scene_import::SidesRule;
+
+use crate::args::{AccelArg, PictureArgs, ReadArgs, SidesArg, SolveArgs, WorkArgs};
+use crate::failure::Failure;
+
+/// Elements asked for when the command line does not say.
+const DEFAULT_ELEMENTS: usize = 10_000;
+
+/// What `solve` will do.
+#[derive(Clone, Debug)]
+pub(crate) struct Solve {
+    /// `None` for the bundled scene.
+    pub(crate) scene: Option<PathBuf>,
+    pub(crate) outputs: Vec<Target>,
+    pub(crate) report: Option<PathBuf>,
+    pub(crate) converge: f64,
+    pub(crate) work: Work,
+    pub(crate) read: Read,
+    pub(crate) picture: PictureArgs,
+}
+
+/// Where a solution goes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Target {
+    /// CSV on stdout.
+    Stdout,
+    /// A file, its format known to be one of ours.
+    File(PathBuf),
+}
+
+/// How finely, with what, on how many threads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Work {
+    pub(crate) elements: Option<usize>,
+    pub(crate) accel: AccelArg,
+    pub(crate) threads: usize,
+}
+
+/// How the scene is read, and who exchanges light with whom.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Read {
+    pub(crate) options: scene_import::Options,
+    pub(crate) exchange: Exchange,
+}
+
+/// Resolves the flags of `solve`.
+pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
+    let outputs = args.output.into_iter().map(target).collect::<Result<Vec<_>, _>>()?;
+    if outputs.is_empty() && args.report.is_none() {
+        let message = "nothing to write: name at least one file with -o, such as -o lit.glb";
+        return Err(Failure::Usage(message.into()));
+    }
+    if !args.picture.exposure.is_finite() || args.picture.exposure.abs() > 64.0 {
+        let message = "--exposure: expected a number of stops from -64 to 64";
+        return Err(Failure::Usage(message.into()));
+    }
+    Ok(Solve {
+        scene: args.scene,
+        outputs,
+        report: args.report,
+        converge: args.converge,
+        work: work(&args.work)?,
+        read: read(&args.read)?,
+        picture: args.picture,
+    })
+}
+
+/// Resolves the flags that say how much work is done.
+pub(crate) fn work(args: &WorkArgs) -> Result<Work, Failure> {
+    // Ids are 32 bits wide, and a forest has up to two nodes per element.
+    const MOST: usize = 1 << 30;
+    if args.elements.is_some_and(|n| n > MOST) {
+        return Err(Failure::Usage(format!("--elements: expected at most {MOST}")));
+    }
+    const MOST_THREADS: usize = 4096;
+    if args.threads > MOST_THREADS {
+        return Err(Failure::Usage(format!("--threads: expected at most {MOST_THREADS}")));
+    }
+    Ok(Work { elements: args.elements, accel: args.accel, threads: args.threads })
+}
+
+impl Work {
+    /// The mesh asked for.
+    pub(crate) fn mesh(&self, triangles: usize) -> MeshConfig {
+        let default = DEFAULT_ELEMENTS.max(2 * triangles);
+        MeshConfig::with_elements(self.elements.unwrap_or(default))
+    }
+}
+
+/// Resolves the flags that say how a file is read.
+pub(crate) fn read(args: &ReadArgs) -> Result<Read, Failure> {
+    if !(args.light.is_finite() && args.light >= 0.0) {
+        return Err(Failure::Usage("--light: expected a finite number, at least 0".into()));
+    }
+    if !(0.0..=1.0).contains(&args.reflect) {
+        return Err(Failure::Usage("--reflect: expected a number from 0 to 1".into()));
+    }
+    let (sides, exchange) = match args.sides {
+        SidesArg::Scene => (SidesRule::Scene, Exchange::OneSided),
+        SidesArg::Front => (SidesRule::Front, Exchange::OneSided),
+        SidesArg::Both => (SidesRule::Both, Exchange::OneSided),
+        SidesArg::Paired => (SidesRule::Front, Exchange::Paired),
+    };
+    let options = scene_import::Options { tri_light: args.light, tri_reflect: args.reflect, sides };
+    Ok(Read { options, exchange })
+}
+
+fn target(path: PathBuf) -> Result<Target, Failure> {
+    if path.as_os_str() == "-" {
+        return Ok(Target::Stdout);
+    }
+    Format::from_path(&path).map_err(|e| Failure::Usage(format!("-o {}: {e}", path.display())))?;
+    Ok(Target::File(path))
+}
+
+/// How pictures and display colours are made.
+pub(crate) fn output_options(
+    picture: &PictureArgs,
+    scene: &scene::Scene,
+) -> Result<output::Options, Failure> {
+    let camera = match &picture.camera {
+        None => None,
+        Some(name) => Some(find_camera(name, scene)?),
+    };
+    let exposure =
+        if picture.exposure == 0.0 { Exposure::Auto } else { Exposure::Stops(picture.exposure) };
+    Ok(output::Options { camera, exposure, size: picture.size, ..output::Options::default() })
+}
+
+fn find_camera(name: &str, scene: &scene::Scene) -> Result<scene::Camera, Failure> {
+    scene.cameras().iter().find(|c| c.name == name).cloned().ok_or_else(|| {
+        let known: Vec<_> = scene.cameras().iter().map(|c| format!("{:?}", c.name)).collect();
+        let known = if known.is_empty() { "none".into() } else { known.join(", ") };
+        Failure::Usage(format!("--camera {name:?}: the scene has {known}"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::args::{Args, Command};
+
+    fn resolve(line: &str) -> Result<Solve, Failure> {
+        let words = line.split_whitespace();
+        let args = Args::try_parse_from(["radiosity", "solve"].into_iter().chain(words));
+        match args.map_err(|e| Failure::Usage(e.to_string()))?.command {
+            Some(Command::Solve(args)) => solve(args),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn defaults_follow_the_scene() {
+        let s = resolve("room.tri -o a.csv -o -").unwrap();
+        assert_eq!(s.outputs, [Target::File("a.csv".into()), Target::Stdout]);
+        assert_eq!(s.work.mesh(12).elements, 10_000);
+        assert_eq!(s.work.mesh(9_506).elements, 19_012);
+        assert_eq!(s.converge, 1e-3);
+        let s = resolve("-o a.csv --elements 5 --converge 2%").unwrap();
+        assert_eq!((s.scene, s.work.elements, s.converge), (None, Some(5), 0.02));
+    }
+
+    #[test]
+    fn sides_choose_the_reading_and_the_exchange() {
+        let paired = resolve("-o a.csv --sides paired").unwrap().read;
+        assert_eq!((paired.options.sides, paired.exchange), (SidesRule::Front, Exchange::Paired));
+        let both = resolve("-o a.csv --sides both").unwrap().read;
+        assert_eq!((both.options.sides, both.exchange), (SidesRule::Both, Exchange::OneSided));
+    }
+
+    #[test]
+    fn contradictions_are_refused() {
+        for line in [
+            "room.tri",
+            "-o a.txt",
+            "-o a.csv --reflect 1.5",
+            "-o a.csv --light -1",
+            "-o a.csv --light nan",
+            "-o a.csv --elements 9999999999",
+            "-o a.csv --threads 100000",
+            "-o a.csv --exposure inf",
+            "-o a.csv --converge 2",
+        ] {
+            assert!(matches!(resolve(line), Err(Failure::Usage(_))), "{line}");
+        }
+    }
+}
