@@ -33,8 +33,7 @@ pub fn write_file(
     options: &Options,
 ) -> Result<Written, Error> {
     let format = Format::from_path(path)?;
-    write_beside(path, |out| write(format, out, scene, solution, options))
-        .map_err(|error| error.at(path))
+    replace_file(path, |out| write(format, out, scene, solution, options))
 }
 
 /// Writes a lit scene into any sink.
@@ -61,6 +60,17 @@ pub fn write(
         Format::Glb => glb::write(out, scene, solution, options.exposure),
         Format::Png => picture::write(out, scene, solution, options),
     }
+}
+
+/// Replaces a file by what `fill` writes, all of it or not at all: how every output is made.
+///
+/// # Errors
+/// What `fill` or the file system answers; the old file then stays as it was.
+pub fn replace_file(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> Result<(), Error>,
+) -> Result<Written, Error> {
+    write_beside(path, fill).map_err(|error| error.at(path))
 }
 
 fn write_beside(

@@ -14,11 +14,13 @@ pub mod picture;
 mod ply;
 pub mod tone;
 mod tri;
+mod unlit;
 mod weld;
 
 pub use compare::{Comparison, compare};
 pub use error::{Error, ErrorKind};
-pub use file::{Written, write, write_file};
+pub use file::{Written, replace_file, write, write_file};
 pub use format::Format;
 pub use options::Options;
 pub use tone::Exposure;
+pub use unlit::unlit;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use scene::{Rgb, TriangleId};
+use scene::{Rgb, Sides, TriangleId};
 
 /// A warning about one place of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,10 +64,31 @@ pub enum DiagnosticKind {
         /// How many it has.
         corners: usize,
     },
-    /// A part of the file that has no counterpart in a scene and is left out.
+    /// A part that has no counterpart on the other side of a conversion and is left out.
     Ignored {
         /// Which part, in words.
         what: String,
+    },
+    /// A reflectance that a .tri file cannot hold.
+    ReflectanceChanged {
+        /// The scene's.
+        from: Rgb,
+        /// The one that the file stands for.
+        to: Rgb,
+    },
+    /// An emittance that a .tri file cannot hold.
+    EmittanceChanged {
+        /// The scene's.
+        from: Rgb,
+        /// The one that the file stands for.
+        to: Rgb,
+    },
+    /// Sides that a .tri file, which tells nothing of sides, will not come back with.
+    SidesChanged {
+        /// The scene's.
+        from: Sides,
+        /// Those that the import gives to every surface.
+        to: Sides,
     },
 }
 
@@ -106,6 +127,22 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "a face of {corners} corners makes no triangle")
             }
             Self::Ignored { what } => write!(f, "left out: {what}"),
+            Self::ReflectanceChanged { from: Rgb(from), to: Rgb(to) } => {
+                write!(f, "reflectance {from:?} becomes {to:?}, beyond which .tri cannot go")
+            }
+            Self::EmittanceChanged { from: Rgb(from), to: Rgb(to) } => {
+                write!(f, "emittance {from:?} becomes {to:?}, the one strength of .tri emitters")
+            }
+            Self::SidesChanged { from, to } => {
+                write!(f, "{} becomes {}: .tri has no sides", sidedness(*from), sidedness(*to))
+            }
         }
+    }
+}
+
+fn sidedness(sides: Sides) -> &'static str {
+    match sides {
+        Sides::Front => "one-sided",
+        Sides::Both => "two-sided",
     }
 }

@@ -17,6 +17,7 @@ mod options;
 #[cfg(any(feature = "obj", feature = "gltf"))]
 mod texture;
 mod tri;
+mod tri_records;
 mod units;
 
 pub use diagnostic::{Diagnostic, DiagnosticKind};
@@ -24,3 +25,4 @@ pub use error::{Error, ErrorKind};
 pub use imported::{Format, Imported, Summary};
 pub use open::{open, open_bytes};
 pub use options::{Options, SidesRule};
+pub use tri_records::tri_records;

@@ -36,6 +36,38 @@ pub(crate) fn tri_emittance(back: [u8; 3], light: f64) -> Option<Rgb> {
         .then(|| Rgb(back.map(|c| TRI_EMITTANCE_PER_STEP * f64::from(c) * light)))
 }
 
+/// The .tri front colour of a reflectance, and whether [`tri_reflectance`] turns it back
+/// into a reflectance within half a step, `reflect` / 510.
+pub(crate) fn tri_front(reflectance: Rgb, reflect: f64) -> ([u8; 3], bool) {
+    let steps = reflectance.map(|c| (c / reflect * f64::from(TRI_FULL)).round());
+    // The conversion brings what lies outside to the nearest byte.
+    let front = steps.0.map(|step| step as u8);
+    (front, steps.0 == front.map(f64::from))
+}
+
+/// The .tri back colour of an emittance, and whether [`tri_emittance`] turns it back into
+/// an emittance within half a step, 50 · `light`.
+///
+/// The mark of an emitter is a channel of exactly 255. An emittance whose largest channel
+/// is not there at this `light` keeps its colour and is scaled until it is.
+///
+/// # Units
+/// Display units: 255 is white.
+pub(crate) fn tri_back(emittance: Rgb, light: f64) -> ([u8; 3], bool) {
+    let most = emittance.max_channel();
+    // A negative emittance does not exist, so this is black.
+    if most <= 0.0 {
+        return ([0; 3], true);
+    }
+    let full = f64::from(TRI_FULL);
+    let steps = emittance.map(|c| (c / (TRI_EMITTANCE_PER_STEP * light)).round());
+    if steps.max_channel() == full {
+        (steps.0.map(|step| step as u8), true)
+    } else {
+        (emittance.0.map(|c| (c / most * full).round() as u8), false)
+    }
+}
+
 /// Linear values of the 256 codes of an 8-bit texture channel.
 #[cfg(any(feature = "obj", feature = "gltf"))]
 pub(crate) struct Decoding([f64; 256]);
@@ -74,6 +106,37 @@ mod tests {
         assert_eq!(tri_emittance([254, 254, 254], 1.0), None);
         assert_eq!(tri_emittance([255, 10, 0], 2.0), Some(Rgb::new(51_000.0, 2_000.0, 0.0)));
         assert_eq!(tri_reflectance([255, 51, 0], 0.5), Rgb::new(0.5, 0.1, 0.0));
+    }
+
+    #[test]
+    fn tri_codes_survive_the_way_there_and_back() {
+        for code in 0..=u8::MAX {
+            for scale in [0.5, 1.0, 0.3, 1e-3] {
+                let front = [code, 255 - code, 0];
+                assert_eq!(tri_front(tri_reflectance(front, scale), scale), (front, true));
+                let back = [code, 255, code / 2];
+                let emittance = tri_emittance(back, scale).expect("a channel is 255");
+                assert_eq!(tri_back(emittance, scale), (back, true));
+            }
+        }
+    }
+
+    #[test]
+    fn what_tri_cannot_hold_is_told() {
+        // 0.5 + half a step is 0.50098; what lies above is clamped.
+        assert_eq!(tri_front(Rgb::new(0.5009, 0.2, 0.0), 0.5), ([255, 102, 0], true));
+        assert_eq!(tri_front(Rgb::new(0.51, 0.2, 0.0), 0.5), ([255, 102, 0], false));
+        assert_eq!(tri_front(Rgb::splat(0.2), 0.0), ([255; 3], false));
+        // Half as strong, and twice: the colour stays.
+        assert_eq!(tri_back(Rgb::new(12_750.0, 5_000.0, 0.0), 1.0), ([255, 100, 0], false));
+        assert_eq!(tri_back(Rgb::new(51_000.0, 20_000.0, 0.0), 1.0), ([255, 100, 0], false));
+        assert_eq!(tri_back(Rgb::ZERO, 1.0), ([0; 3], true));
+        for light in [0.0, f64::NAN, f64::INFINITY, -1.0] {
+            assert_eq!(tri_back(Rgb::splat(25_500.0), light), ([255; 3], false));
+        }
+        // Below the smallest normal number, and near the largest.
+        assert_eq!(tri_back(Rgb::new(5e-324, 0.0, 0.0), 1.0), ([255, 0, 0], false));
+        assert_eq!(tri_back(Rgb::new(1e308, 5e307, 0.0), 1.0), ([255, 128, 0], false));
     }
 
     #[cfg(any(feature = "obj", feature = "gltf"))]

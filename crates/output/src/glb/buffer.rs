@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use scene::{Scene, Solution, SolutionElement};
+use scene::{Face, Scene, Solution, SolutionElement};
 
 use crate::tone::curve;
 use crate::weld::{Corner, Welded, bounds, corners, far_from_origin, normal};
@@ -15,7 +15,7 @@ use crate::{Error, ErrorKind};
 pub(crate) struct Geometry {
     /// Subtracted from every position before it was narrowed; zero near the origin.
     pub(crate) centre: DVec3,
-    /// In the order of group, then material.
+    /// In the order of group, then material, front before back.
     pub(crate) primitives: Vec<Primitive>,
     /// In the order of [`SECTIONS`].
     bytes: [Vec<u8>; SECTIONS.len()],
@@ -38,11 +38,12 @@ pub(crate) const SECTIONS: [Section; 5] = [
     Section { attribute: None, stride: 4 },
 ];
 
-/// The faces of one group in one material.
+/// The faces of one group in one material, seen from one side.
 #[derive(Debug)]
 pub(crate) struct Primitive {
     pub(crate) group: u32,
     pub(crate) material: u32,
+    pub(crate) face: Face,
     /// First vertex, and how many.
     pub(crate) vertices: (usize, usize),
     /// First index, and how many.
@@ -57,7 +58,7 @@ impl Geometry {
         self.bytes.each_ref().map(Vec::as_slice)
     }
 
-    fn push(&mut self, group: u32, material: u32, mesh: &Welded, scale: f64) {
+    fn push(&mut self, (group, material, face): Share, mesh: &Welded, scale: f64) {
         let [positions, normals, colours, light, indices] = &mut self.bytes;
         let first_vertex = positions.len() / SECTIONS[0].stride;
         let first_index = indices.len() / SECTIONS[4].stride;
@@ -78,6 +79,7 @@ impl Geometry {
         self.primitives.push(Primitive {
             group,
             material,
+            face,
             vertices: (first_vertex, mesh.vertices.len()),
             indices: (first_index, 3 * mesh.faces.len()),
             low,
@@ -86,15 +88,20 @@ impl Geometry {
     }
 }
 
-/// Sorts the elements by group and material, and welds each share on its own.
+/// The group, material and side that make a primitive.
+type Share = (u32, u32, Face);
+
+/// Sorts the elements by group, material and side, and welds each share on its own.
 pub(crate) fn build(scene: &Scene, solution: &Solution, scale: f64) -> Result<Geometry, Error> {
     let mut geometry = Geometry { centre: centre(solution)?, ..Geometry::default() };
-    let mut shares: BTreeMap<(u32, u32), Vec<&SolutionElement>> = BTreeMap::new();
+    let mut shares: BTreeMap<_, (Share, Vec<&SolutionElement>)> = BTreeMap::new();
     for element in &solution.elements {
         let triangle = &scene.triangles()[element.triangle.index()];
-        shares.entry((triangle.group.0, triangle.material.0)).or_default().push(element);
+        let share = (triangle.group.0, triangle.material.0, element.face);
+        let order = (share.0, share.1, share.2 == Face::Back);
+        shares.entry(order).or_insert((share, Vec::new())).1.push(element);
     }
-    for ((group, material), elements) in shares {
+    for (share, elements) in shares.into_values() {
         let mut mesh = Welded::default();
         for element in elements {
             let normal = normal(scene, element.triangle, element.face);
@@ -104,7 +111,7 @@ pub(crate) fn build(scene: &Scene, solution: &Solution, scale: f64) -> Result<Ge
             }
         }
         if !mesh.faces.is_empty() {
-            geometry.push(group, material, &mesh, scale);
+            geometry.push(share, &mesh, scale);
         }
     }
     Ok(geometry)
@@ -118,7 +125,12 @@ fn centre(solution: &Solution) -> Result<DVec3, Error> {
     if (high - low).max_element() > f64::from(f32::MAX) {
         return Err(Error::new(ErrorKind::TooLarge("a scene wider than f32 can hold")));
     }
-    Ok(0.5 * low + 0.5 * high)
+    let centre = 0.5 * low + 0.5 * high;
+    // Readers narrow it, too.
+    if centre.abs().max_element() > f64::from(f32::MAX) {
+        return Err(Error::new(ErrorKind::TooLarge("a scene farther out than f32 can hold")));
+    }
+    Ok(centre)
 }
 
 /// Tone-mapped display light; `COLOR_0` is linear, so no sRGB transfer. Eight bits would

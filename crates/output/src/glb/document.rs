@@ -1,12 +1,12 @@
 //! The JSON half: who is who, and where in the binary half the numbers lie.
 
 use glam::{DMat3, DQuat, DVec3};
-use scene::{Camera, Material, Scene, Sides};
+use scene::{Camera, Face, Material, Scene, Sides};
 use serde_json::{Map, Value, json};
 
 use super::buffer::{Geometry, Primitive, SECTIONS};
-use crate::Error;
 use crate::picture::basis;
+use crate::{Error, ErrorKind};
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_SHORT: u32 = 5123;
@@ -16,6 +16,11 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// Viewers clip what is nearer to the eye than this share of the distance to the target:
 /// near enough to lose no wall, far enough for a 24-bit depth buffer.
 const NEAR_SHARE: f64 = 1e-3;
+
+/// What glTF has no place for, under a name that no other program uses.
+fn extras(ours: Value) -> Value {
+    json!({ "radiosity": ours })
+}
 
 /// Builds the glTF document of a scene whose numbers lie in `geometry`.
 pub(crate) fn build(scene: &Scene, geometry: &Geometry, scale: f64) -> Result<Value, Error> {
@@ -27,7 +32,11 @@ pub(crate) fn build(scene: &Scene, geometry: &Geometry, scale: f64) -> Result<Va
         }
     };
     let nodes = nodes(scene, geometry)?;
-    put("scenes", vec![nodes.scene]);
+    // A scene must have nodes, so without any there is none.
+    let roots = nodes.roots;
+    let scenes = if roots.is_empty() { vec![] } else { vec![json!({ "nodes": roots })] };
+    let shown = !scenes.is_empty();
+    put("scenes", scenes);
     put("nodes", nodes.list);
     put("meshes", nodes.meshes);
     put("materials", scene.materials().iter().map(material).collect());
@@ -39,13 +48,15 @@ pub(crate) fn build(scene: &Scene, geometry: &Geometry, scale: f64) -> Result<Va
     if !scene.materials().is_empty() {
         put("extensionsUsed", vec![json!("KHR_materials_unlit")]);
     }
-    root.insert("scene".into(), json!(0));
+    if shown {
+        root.insert("scene".into(), json!(0));
+    }
     root.insert(
         "asset".into(),
         json!({
             "version": "2.0",
             "generator": concat!("radiosity ", env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")),
-            "extras": { "exposureScale": scale },
+            "extras": extras(json!({ "exposureScale": scale })),
         }),
     );
     Ok(Value::Object(root))
@@ -54,7 +65,8 @@ pub(crate) fn build(scene: &Scene, geometry: &Geometry, scale: f64) -> Result<Va
 struct Nodes {
     list: Vec<Value>,
     meshes: Vec<Value>,
-    scene: Value,
+    /// The nodes without a parent.
+    roots: Vec<usize>,
 }
 
 /// A node per group, then one per camera, then a root above them where the scene lies
@@ -79,11 +91,17 @@ fn nodes(scene: &Scene, geometry: &Geometry) -> Result<Nodes, Error> {
         let [right, up, forward] = basis(camera)?;
         // A glTF camera looks along its own -z.
         let turn = DQuat::from_mat3(&DMat3::from_cols(right, up, -forward)).normalize();
+        let translation = camera.position - geometry.centre;
+        if translation.abs().max_element() > f64::from(f32::MAX) {
+            return Err(Error::new(ErrorKind::TooLarge("a camera farther out than f32 can hold")));
+        }
+        let translation = translation.to_array();
         list.push(json!({
             "name": camera.name,
             "camera": index,
-            "translation": (camera.position - geometry.centre).to_array(),
+            "translation": translation,
             "rotation": turn.to_array(),
+            "extras": extras(json!({ "translation": translation, "rotation": turn.to_array() })),
         }));
     }
     let mut roots: Vec<usize> = (0..list.len()).collect();
@@ -92,11 +110,12 @@ fn nodes(scene: &Scene, geometry: &Geometry) -> Result<Nodes, Error> {
             "name": "offset from the origin",
             "translation": geometry.centre.to_array(),
             "children": roots,
+            // Readers narrow the numbers of glTF itself to f32.
+            "extras": extras(json!({ "translation": geometry.centre.to_array() })),
         }));
         roots = vec![list.len() - 1];
     }
-    let scene = if roots.is_empty() { json!({}) } else { json!({ "nodes": roots }) };
-    Ok(Nodes { list, meshes, scene })
+    Ok(Nodes { list, meshes, roots })
 }
 
 fn primitive(index: usize, primitive: &Primitive) -> Value {
@@ -110,6 +129,10 @@ fn primitive(index: usize, primitive: &Primitive) -> Value {
         }
     }
     value["attributes"] = Value::Object(attributes);
+    if primitive.face == Face::Back {
+        // A reader of surfaces already has this one: it is the back of another.
+        value["extras"] = extras(json!({ "face": "back" }));
+    }
     value
 }
 
@@ -181,11 +204,11 @@ fn material(material: &Material) -> Value {
         // The back of a two-sided surface is there as faces of its own.
         "doubleSided": false,
         "extensions": { "KHR_materials_unlit": {} },
-        "extras": {
-            "reflectance": material.reflectance.0,
+        "extras": extras(json!({
             "emittance": material.emittance.0,
+            "reflectance": material.reflectance.0,
             "sides": sides,
-        },
+        })),
     })
 }
 
@@ -195,5 +218,6 @@ fn camera(camera: &Camera) -> Value {
         "name": camera.name,
         "type": "perspective",
         "perspective": { "yfov": camera.vertical_fov, "znear": NEAR_SHARE * distance },
+        "extras": extras(json!({ "targetDistance": distance, "yfov": camera.vertical_fov })),
     })
 }

@@ -12,3 +12,4 @@ mod glb;
 mod picture;
 mod ply;
 mod tri;
+mod unlit;

@@ -8,6 +8,7 @@ mod budget;
 mod document;
 mod layer;
 mod primitive;
+mod stated;
 mod surface;
 mod uri;
 mod walk;
@@ -19,6 +20,7 @@ use crate::open::Source;
 use crate::{DiagnosticKind, Error, Format, Imported, Options};
 use budget::Budget;
 use document::Parsed;
+use stated::Stated;
 use surface::Surfaces;
 use walk::Placed;
 
@@ -31,6 +33,9 @@ const KNOWN_EXTENSIONS: &[&str] = &[
     "KHR_materials_specular",
     "KHR_xmp_json_ld",
 ];
+
+/// Materials that are shown as they are, without lamps.
+const UNLIT_EXTENSION: &str = "KHR_materials_unlit";
 
 /// Triangles from one primitive under one node: the first of them, and the way to it.
 struct Run {
@@ -46,18 +51,19 @@ pub(crate) fn read(
 ) -> Result<Imported, Error> {
     let parsed = Parsed::new(source)?;
     let mut assembler = Assembler::new(source.name, options.sides);
-    warn_about_document(&parsed, source.name, &mut assembler);
+    let stated = Stated::new(&parsed.document, &mut assembler);
+    warn_about_document(&parsed, &stated, source.name, &mut assembler);
     let mut budget = Budget::new(
         source.name,
         source.bytes.len() + parsed.buffers.iter().map(Vec::len).sum::<usize>(),
     );
-    let mut surfaces = Surfaces::new(source, &parsed);
+    let mut surfaces = Surfaces::new(source, &parsed, &stated);
     let mut runs = Vec::new();
-    for placed in walk::walk(&parsed.document, source.name)? {
+    for placed in walk::walk(&parsed.document, &stated, source.name)? {
         let Placed { node, world } = &placed;
         let path = format!("nodes[{}]", node.index());
         if let Some(camera) = node.camera() {
-            match convert_camera(&camera, node, &placed) {
+            match convert_camera(&camera, &stated, &placed) {
                 Ok(camera) => assembler.camera(camera),
                 Err(what) => assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str()),
             }
@@ -77,6 +83,9 @@ pub(crate) fn read(
             None => assembler.new_group(&format!("node {}", node.index())),
         };
         for primitive in mesh.primitives() {
+            if stated.is_back(mesh.index(), primitive.index()) {
+                continue;
+            }
             let path = format!("{path}.mesh[{}].primitives[{}]", mesh.index(), primitive.index());
             runs.push(Run { first: assembler.triangle_count(), path: path.clone() });
             let place = primitive::Place { path: &path, mesh: mesh.index(), world: *world, group };
@@ -100,12 +109,21 @@ fn place(runs: &[Run], id: TriangleId) -> String {
     format!("{}.triangle {}", run.path, id.index() - run.first)
 }
 
-fn warn_about_document(parsed: &Parsed, file: &str, assembler: &mut Assembler<'_>) {
+fn warn_about_document(
+    parsed: &Parsed,
+    stated: &Stated,
+    file: &str,
+    assembler: &mut Assembler<'_>,
+) {
     let document = &parsed.document;
     let mut ignore = |what: String, place: &str| {
         assembler.warn(DiagnosticKind::Ignored { what }, None, format!("{file}: {place}"));
     };
-    for name in document.extensions_used().filter(|name| !KNOWN_EXTENSIONS.contains(name)) {
+    // How a material is shown does not matter where it states its surface.
+    let known = |name: &&str| {
+        KNOWN_EXTENSIONS.contains(name) || *name == UNLIT_EXTENSION && stated.all_surfaces()
+    };
+    for name in document.extensions_used().filter(|name| !known(name)) {
         ignore(format!("extension {name}"), "extensionsUsed");
     }
     if document.animations().len() > 0 {
@@ -123,7 +141,7 @@ fn warn_about_document(parsed: &Parsed, file: &str, assembler: &mut Assembler<'_
 /// A camera of the scene; the error says what is left out.
 fn convert_camera(
     camera: &gltf::Camera<'_>,
-    node: &gltf::Node<'_>,
+    stated: &Stated,
     placed: &Placed<'_>,
 ) -> Result<Camera, String> {
     let gltf::camera::Projection::Perspective(perspective) = camera.projection() else {
@@ -131,10 +149,14 @@ fn convert_camera(
     };
     // Cameras look along −z, with +y up.
     let position = placed.world.w_axis.truncate();
-    let target = position - placed.world.z_axis.truncate().normalize_or_zero();
+    let target = match stated.target(camera.index()) {
+        Some(target) => placed.world.transform_point3(target),
+        None => position - placed.world.z_axis.truncate().normalize_or_zero(),
+    };
     let up = placed.world.y_axis.truncate().normalize_or_zero();
-    let vertical_fov = f64::from(perspective.yfov());
+    let vertical_fov = stated.yfov(camera.index(), perspective.yfov());
     let sound = position.is_finite()
+        && target.is_finite()
         && target != position
         && up != glam::DVec3::ZERO
         && vertical_fov > 0.0
@@ -142,7 +164,7 @@ fn convert_camera(
     if !sound {
         return Err("camera without a direction or field of view".to_owned());
     }
-    let name = node.name().or(camera.name());
+    let name = placed.node.name().or(camera.name());
     let name = name.map_or_else(|| format!("camera {}", camera.index()), str::to_owned);
     Ok(Camera { name, position, target, up, vertical_fov })
 }

@@ -10,6 +10,7 @@ use super::accessor;
 use super::budget::Budget;
 use super::document::Parsed;
 use super::layer::{Images, Layer};
+use super::stated::Stated;
 use crate::assembler::Assembler;
 use crate::open::Source;
 use crate::texture::SampleGrid;
@@ -19,6 +20,7 @@ use crate::{DiagnosticKind, Error};
 /// The materials and images of a document.
 pub(super) struct Surfaces<'p> {
     parsed: &'p Parsed,
+    stated: &'p Stated,
     images: Images<'p>,
     colour: Decoding,
     data: Decoding,
@@ -41,9 +43,10 @@ struct Appearance {
 }
 
 impl<'p> Surfaces<'p> {
-    pub(super) fn new(source: &Source<'p>, parsed: &'p Parsed) -> Self {
+    pub(super) fn new(source: &Source<'p>, parsed: &'p Parsed, stated: &'p Stated) -> Self {
         Self {
             parsed,
+            stated,
             images: Images::new(source, parsed),
             colour: Decoding::srgb(),
             data: Decoding::linear(),
@@ -67,30 +70,46 @@ impl<'p> Surfaces<'p> {
             return Ok(known.clone());
         }
         let material = primitive.material();
-        self.warn_about(&material, path, assembler);
-        let materials = match material.index() {
-            None => vec![assembler.missing_material("default")?; triangles.len()],
-            Some(index) => {
-                let name =
-                    material.name().map_or_else(|| format!("material {index}"), str::to_owned);
-                let appearance = self.appearance(primitive, &material, budget, assembler)?;
-                let sides = if material.double_sided() { Sides::Both } else { Sides::Front };
-                let grid = SampleGrid::for_triangles(triangles.len());
-                let mut materials = Vec::with_capacity(triangles.len());
-                for &corners in triangles {
-                    let [reflectance, emittance] = self.values(&appearance, corners, grid);
-                    let name = name.clone();
-                    materials.push(assembler.material(Material {
-                        name,
-                        reflectance,
-                        emittance,
-                        sides,
-                    })?);
-                }
-                materials
+        let stated = material.index().and_then(|index| self.stated.surface(index));
+        let materials = if let Some(surface) = stated {
+            let id = assembler.material(Material {
+                name: name(&material),
+                reflectance: surface.reflectance(),
+                emittance: surface.emittance(),
+                sides: surface.sides(),
+            })?;
+            vec![id; triangles.len()]
+        } else {
+            self.warn_about(&material, path, assembler);
+            if material.index().is_some() {
+                self.by_appearance(primitive, triangles, budget, assembler)?
+            } else {
+                vec![assembler.missing_material("default")?; triangles.len()]
             }
         };
         self.known.insert(key, materials.clone());
+        Ok(materials)
+    }
+
+    /// The material of each triangle by glTF's own rule.
+    fn by_appearance(
+        &mut self,
+        primitive: &gltf::Primitive<'_>,
+        triangles: &[[usize; 3]],
+        budget: &mut Budget<'_>,
+        assembler: &mut Assembler<'_>,
+    ) -> Result<Vec<MaterialId>, Error> {
+        let material = primitive.material();
+        let appearance = self.appearance(primitive, &material, budget, assembler)?;
+        let sides = if material.double_sided() { Sides::Both } else { Sides::Front };
+        let name = name(&material);
+        let grid = SampleGrid::for_triangles(triangles.len());
+        let mut materials = Vec::with_capacity(triangles.len());
+        for &corners in triangles {
+            let [reflectance, emittance] = self.values(&appearance, corners, grid);
+            let name = name.clone();
+            materials.push(assembler.material(Material { name, reflectance, emittance, sides })?);
+        }
         Ok(materials)
     }
 
@@ -190,4 +209,10 @@ impl<'p> Surfaces<'p> {
         };
         [reflectance, emittance]
     }
+}
+
+/// A material's name, or its number where it has none.
+fn name(material: &gltf::Material<'_>) -> String {
+    let number = || format!("material {}", material.index().unwrap_or_default());
+    material.name().map_or_else(number, str::to_owned)
 }

@@ -4,6 +4,7 @@ use glam::{DMat4, DQuat, DVec3, DVec4};
 use gltf::scene::Transform;
 use gltf::{Document, Node};
 
+use super::stated::Stated;
 use crate::{Error, ErrorKind};
 
 /// A node and its transform to world coordinates.
@@ -19,7 +20,11 @@ pub(super) fn scene(document: &Document) -> Option<gltf::Scene<'_>> {
 
 /// The nodes of the scene that is read, parents before children, siblings in order. A file
 /// without scenes shows every node.
-pub(super) fn walk<'d>(document: &'d Document, file: &str) -> Result<Vec<Placed<'d>>, Error> {
+pub(super) fn walk<'d>(
+    document: &'d Document,
+    stated: &Stated,
+    file: &str,
+) -> Result<Vec<Placed<'d>>, Error> {
     let mut roots: Vec<Node<'d>> = match scene(document) {
         Some(scene) => scene.nodes().collect(),
         None => {
@@ -43,7 +48,7 @@ pub(super) fn walk<'d>(document: &'d Document, file: &str) -> Result<Vec<Placed<
                 format!("nodes[{}]: expected at most one parent for each node", node.index());
             return Err(Error::new(ErrorKind::Invalid, file, message));
         }
-        let world = parent * local(&node);
+        let world = parent * local(&node, stated);
         let children = stack.len();
         stack.extend(node.children().map(|child| (child, world)));
         stack[children..].reverse();
@@ -53,7 +58,7 @@ pub(super) fn walk<'d>(document: &'d Document, file: &str) -> Result<Vec<Placed<
 }
 
 /// The node's own transform, in f64 from the file's numbers on.
-fn local(node: &Node<'_>) -> DMat4 {
+fn local(node: &Node<'_>, stated: &Stated) -> DMat4 {
     match node.transform() {
         Transform::Matrix { matrix } => DMat4::from_cols_array_2d(
             &matrix.map(|column| DVec4::from(column.map(f64::from)).to_array()),
@@ -62,8 +67,8 @@ fn local(node: &Node<'_>) -> DMat4 {
             DMat4::from_scale_rotation_translation(
                 DVec3::from(scale.map(f64::from)),
                 // f32 leaves the quaternion's length 1e-7 off, which would scale the mesh.
-                DQuat::from_array(rotation.map(f64::from)).normalize(),
-                DVec3::from(translation.map(f64::from)),
+                DQuat::from_array(stated.rotation(node.index(), rotation)).normalize(),
+                DVec3::from(stated.translation(node.index(), translation)),
             )
         }
     }

@@ -14,10 +14,14 @@ fn rich() -> Vec<u8> {
     let png = glb.png(2, &[[255; 3], [0; 3], [0; 3], [255; 3]]);
     glb.build(&format!(
         r#""images":[{{"bufferView":{png},"mimeType":"image/png"}}],"textures":[{{"source":0}}],
-        "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],
-        "cameras":[{{"type":"perspective","perspective":{{"yfov":1,"znear":1}}}}],
-        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"indices":2,"material":0}}]}}],
-        "nodes":[{{"mesh":0,"children":[1]}},{{"camera":0}}],"scenes":[{{"nodes":[0]}}],"scene":0"#
+        "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}},
+        {{"extras":{{"radiosity":{{"reflectance":[0,0,1],"emittance":[0,9,0],"sides":"both"}}}}}}],
+        "cameras":[{{"type":"perspective","perspective":{{"yfov":1,"znear":1}},
+        "extras":{{"radiosity":{{"yfov":1,"targetDistance":5}}}}}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"indices":2,"material":0}},
+        {{"attributes":{{"POSITION":0}},"material":1,"extras":{{"radiosity":{{"face":"back"}}}}}}]}}],
+        "nodes":[{{"mesh":0,"children":[1]}},
+        {{"camera":0,"translation":[1,2,3],"extras":{{"radiosity":{{"translation":[1,2,3]}}}}}}],"scenes":[{{"nodes":[0]}}],"scene":0"#
     ))
 }
 

@@ -4,6 +4,8 @@
 mod appearance;
 mod errors;
 #[cfg(feature = "gltf")]
+mod extras;
+#[cfg(feature = "gltf")]
 mod glb;
 #[cfg(feature = "gltf")]
 mod gltf;
@@ -14,6 +16,7 @@ mod lint;
 mod obj;
 mod shared_scenes;
 mod tri;
+mod tri_records;
 
 use scene_import::{Imported, Options, open_bytes};
 
