@@ -19,6 +19,9 @@ use crate::shooting::SEGMENT_LIFT;
 /// in a closed scene any number gives the exact 0.
 const DIRECTIONS: u32 = 32;
 
+/// Points per run of an executor.
+const RUN: usize = 256;
+
 /// Rays start this share of the way to an element's centroid off its rim, where a neighbour
 /// may lie in the ray's own plane.
 const OFF_RIM: f64 = 0.02;
@@ -38,7 +41,11 @@ enum End {
     /// At a side that takes light.
     #[default]
     Received,
+    /// At the back of a one-sided surface.
     Back,
+    /// It starts inside something, where no light is: the light of its element comes from
+    /// elsewhere on it.
+    Inside,
     Nowhere,
 }
 
@@ -49,11 +56,13 @@ struct Sample {
     end: End,
 }
 
-/// The sampled directions of all patches: 8 bytes each, 256 a patch.
+/// The sampled directions of all patches: 8 bytes each, 256 a patch; and a byte per point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Census {
     /// [`DIRECTIONS`] for each patch.
     samples: Vec<Sample>,
+    /// Whether each receiver point lies inside something: see [`Census::buried`].
+    buried: Vec<bool>,
 }
 
 /// A shot's power that met backs, and that left the scene.
@@ -73,6 +82,14 @@ impl Census {
         exchange: Exchange,
         executor: &E,
     ) -> Self {
+        let look = Look { scene, mesh, bvh, exchange };
+        let mut buried = vec![false; mesh.points.len()];
+        let mut work: Vec<_> = mesh.points.chunks(RUN).zip(buried.chunks_mut(RUN)).collect();
+        executor.for_each(&mut work, |(points, buried)| {
+            for (point, slot) in points.iter().zip(buried.iter_mut()) {
+                *slot = look.is_buried(point.position, point.normal);
+            }
+        });
         let mut samples = vec![Sample::default(); mesh.patches.len() * DIRECTIONS as usize];
         let slots = samples.chunks_mut(DIRECTIONS as usize);
         let mut work: Vec<_> = (0u32..).zip(&mesh.patches).zip(slots).collect();
@@ -80,10 +97,18 @@ impl Census {
             // Patches of one plane must not all look the same way.
             let shift = spread(*number);
             for (i, slot) in (0..).zip(slots.iter_mut()) {
-                *slot = sample(scene, mesh, bvh, exchange, patch, i, shift);
+                *slot = look.follow(patch, i, shift);
             }
         });
-        Self { samples }
+        Self { samples, buried }
+    }
+
+    /// Whether a receiver point lies inside something, such as a floor's point below a box:
+    /// it sees nothing but backs. No one sees such a point either, so pictures must not
+    /// spread its darkness to its neighbours.
+    #[must_use]
+    pub fn buried(&self, point: u32) -> bool {
+        self.buried.get(point as usize).is_some_and(|b| *b)
     }
 
     /// Whether there are no samples: an empty mesh, or no census taken.
@@ -105,7 +130,7 @@ impl Census {
 
     /// Whether some sampled direction meets a back or leaves the scene.
     pub(crate) fn any_lost(&self) -> bool {
-        self.samples.iter().any(|s| s.end != End::Received)
+        self.samples.iter().any(|s| matches!(s.end, End::Back | End::Nowhere))
     }
 
     /// What a shot loses: each sample stands for the light of its own element, so that a
@@ -119,9 +144,11 @@ impl Census {
         let mut ends = Lost::default();
         for sample in samples {
             let light = unshot[sample.element as usize];
-            all += light;
+            if sample.end != End::Inside {
+                all += light;
+            }
             match sample.end {
-                End::Received => {}
+                End::Received | End::Inside => {}
                 End::Back => ends.wrong_side += light,
                 End::Nowhere => ends.escaped += light,
             }
@@ -133,31 +160,49 @@ impl Census {
     }
 }
 
-/// Follows the i-th direction of a patch.
-fn sample(
-    scene: &Scene,
-    mesh: &Mesh,
-    bvh: &Bvh,
+/// What looks around, and at what.
+struct Look<'a> {
+    scene: &'a Scene,
+    mesh: &'a Mesh,
+    bvh: &'a Bvh,
     exchange: Exchange,
-    patch: &Patch,
-    i: u32,
-    shift: [f64; 2],
-) -> Sample {
-    let element = element_of(mesh, patch, i);
-    let start = &mesh.elements[element as usize];
-    // In the paired rule every other direction leaves from the back.
-    let side = if exchange == Exchange::Paired && i % 2 == 1 { -1.0 } else { 1.0 };
-    let out = mesh.root_of(start).normal * side;
-    let origin = place(mesh.corners(start.vertices), i) + out * (SEGMENT_LIFT * mesh.extent);
-    let end = match bvh.nearest(origin, direction(out, i, shift)) {
-        None => End::Nowhere,
-        Some(hit) => {
-            let takes_both = scene.material_of(TriangleId(hit.triangle)).sides == Sides::Both;
-            let received = takes_both || hit.front == (side > 0.0);
-            if received { End::Received } else { End::Back }
+}
+
+impl Look<'_> {
+    /// Follows the i-th direction of a patch.
+    fn follow(&self, patch: &Patch, i: u32, shift: [f64; 2]) -> Sample {
+        let element = element_of(self.mesh, patch, i);
+        let start = &self.mesh.elements[element as usize];
+        // In the paired rule every other direction leaves from the back.
+        let side = if self.exchange == Exchange::Paired && i % 2 == 1 { -1.0 } else { 1.0 };
+        let out = self.mesh.root_of(start).normal * side;
+        let from = place(self.mesh.corners(start.vertices), i);
+        let end = match self.end(from, out, direction(out, i, shift), side) {
+            End::Back if self.is_buried(from, out) => End::Inside,
+            end => end,
+        };
+        Sample { element, end }
+    }
+
+    /// Whether a place on a surface sees nothing but backs.
+    fn is_buried(&self, at: DVec3, normal: DVec3) -> bool {
+        // Paired surfaces shine and receive on both sides: nothing is inside of anything.
+        self.exchange == Exchange::OneSided
+            && (0..DIRECTIONS)
+                .all(|i| self.end(at, normal, direction(normal, i, [0.0; 2]), 1.0) == End::Back)
+    }
+
+    /// Where a ray from a surface ends; `side` is −1 if it leaves from the back.
+    fn end(&self, from: DVec3, out: DVec3, way: DVec3, side: f64) -> End {
+        match self.bvh.nearest(from + out * (SEGMENT_LIFT * self.mesh.extent), way) {
+            None => End::Nowhere,
+            Some(hit) => {
+                let hit_material = self.scene.material_of(TriangleId(hit.triangle));
+                let received = hit_material.sides == Sides::Both || hit.front == (side > 0.0);
+                if received { End::Received } else { End::Back }
+            }
         }
-    };
-    Sample { element, end }
+    }
 }
 
 /// The element that the i-th direction starts from: shared out by area.

@@ -2,10 +2,21 @@
 
 use scene::{Rgb, Solution, SolutionElement};
 
+use crate::census::Census;
 use crate::mesh::Mesh;
 
 /// Exitance = emittance + reflectance · irradiance, for each element's mean and its corners.
-pub(crate) fn solution(mesh: &Mesh, irradiance: &[Rgb], at_points: &[Rgb]) -> Solution {
+///
+/// A corner at a buried point shows the irradiance of its neighbours instead of the dark
+/// that nobody sees, so that no shadow creeps out from under what stands there. Means keep
+/// the light that arrived.
+pub(crate) fn solution(
+    mesh: &Mesh,
+    census: &Census,
+    irradiance: &[Rgb],
+    at_points: &[Rgb],
+) -> Solution {
+    let shown = shown(mesh, census, at_points);
     let elements = mesh
         .elements
         .iter()
@@ -18,9 +29,26 @@ pub(crate) fn solution(mesh: &Mesh, irradiance: &[Rgb], at_points: &[Rgb]) -> So
                 triangle: root.triangle,
                 face: root.face,
                 exitance: exitance(mean),
-                corner_exitance: element.points.map(|p| exitance(at_points[p as usize])),
+                corner_exitance: element.points.map(|p| exitance(shown[p as usize])),
             }
         })
         .collect();
     Solution { vertices: mesh.vertices.clone(), elements }
+}
+
+/// The irradiance to show at each point: its own, or, for a buried point with neighbours
+/// in the open, their mean.
+fn shown(mesh: &Mesh, census: &Census, at_points: &[Rgb]) -> Vec<Rgb> {
+    let mut sums = vec![(Rgb::ZERO, 0u32); at_points.len()];
+    for element in &mesh.elements {
+        for p in element.points.iter().filter(|p| census.buried(**p)) {
+            for open in element.points.iter().filter(|q| !census.buried(**q)) {
+                let (sum, n) = &mut sums[*p as usize];
+                *sum += at_points[*open as usize];
+                *n += 1;
+            }
+        }
+    }
+    let mean = |(&own, (sum, n)): (&Rgb, (Rgb, u32))| if n > 0 { sum / f64::from(n) } else { own };
+    at_points.iter().zip(sums).map(mean).collect()
 }

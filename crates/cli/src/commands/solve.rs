@@ -161,9 +161,10 @@ fn say_solved(solved: &Solved) {
         percent(work.unshot)
     ));
     say(&format!(
-        "energy: absorbed {}, escaped {}, wrong side {}, unshot {} (sum off by {:.0e})",
+        "energy: absorbed {}, escaped {} (form factors: {}), wrong side {}, unshot {}; sum off by {:.0e}",
         percent(ledger.share(ledger.absorbed)),
         percent(ledger.share(ledger.escaped)),
+        percent(ledger.share(ledger.form_factor_defect)),
         percent(ledger.share(ledger.wrong_side)),
         percent(ledger.share(ledger.unshot)),
         ledger.imbalance()

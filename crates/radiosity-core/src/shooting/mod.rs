@@ -214,7 +214,8 @@ impl<'a, E: Executor> Shooting<'a, E> {
     /// The exitance so far, unshot light included: what leaves each element.
     #[must_use]
     pub fn solution(&self) -> Solution {
-        reconstruct::solution(self.mesh, &self.state.irradiance, &self.state.at_points)
+        let State { irradiance, at_points, .. } = &self.state;
+        reconstruct::solution(self.mesh, self.census, irradiance, at_points)
     }
 
     /// Unshot power over emitted power, worst channel; 0 without light.
@@ -253,7 +254,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
             triangle: root.triangle.0,
             exchange,
             rule: Rule::for_tolerance(self.config.tolerance),
-            lift: SEGMENT_LIFT * mesh.extent,
+            extent: mesh.extent,
             negligible: self.mean * self.config.cell_share,
         };
         let mut runs: Vec<Run> = Vec::new();

@@ -21,6 +21,12 @@ const OPEN_RADII: f64 = 2.5;
 /// 80 ulps of f32 coordinates, and less than the thinnest gap worth modelling.
 pub(crate) const SEGMENT_LIFT: f64 = 5e-6;
 
+/// A receiver no higher above the shooter's plane than this share of the scene's extent lies
+/// in it, and gets nothing: points of the shooter itself and of its coplanar neighbours come
+/// out at rounding errors, up to 1e-10 of the extent for scenes a million extents from the
+/// origin, and a form factor of 1/2 must not hang on those.
+const IN_PLANE: f64 = 1e-9;
+
 /// What all receivers of one shot have in common.
 pub(super) struct Shot<'a> {
     pub(super) occluder: &'a dyn Occluder,
@@ -31,8 +37,8 @@ pub(super) struct Shot<'a> {
     pub(super) triangle: u32,
     pub(super) exchange: Exchange,
     pub(super) rule: Rule,
-    /// Length by which segments keep off their surfaces.
-    pub(super) lift: f64,
+    /// The scene's extent.
+    pub(super) extent: f64,
     /// Irradiance below which a cell need not be split, per channel; at least 0.
     pub(super) negligible: Rgb,
 }
@@ -86,15 +92,21 @@ impl Shot<'_> {
         run.counts
     }
 
+    /// Length by which segments keep off their surfaces.
+    fn lift(&self) -> f64 {
+        SEGMENT_LIFT * self.extent
+    }
+
     /// On which side of the shooter the receiver lies and with which normal it sees it:
     /// `None` if light cannot go between them.
     #[inline]
     fn facing(&self, cell: &Cell, receiver: &ReceiverPoint) -> Option<(f64, DVec3)> {
         let height = self.normal.dot(receiver.position - cell.centroid);
         let side = match self.exchange {
-            Exchange::OneSided if height > 0.0 => 1.0,
-            Exchange::Paired if height != 0.0 => height.signum(),
-            _ => return None,
+            _ if height.abs() <= IN_PLANE * self.extent => return None,
+            Exchange::OneSided if height < 0.0 => return None,
+            Exchange::OneSided => 1.0,
+            Exchange::Paired => height.signum(),
         };
         let normal = receiver.normal * side;
         let above = |c: &DVec3| normal.dot(*c - receiver.position) > 0.0;
@@ -181,13 +193,13 @@ impl Run<'_> {
             if form_factor <= 0.0 {
                 continue;
             }
-            let to = receiver.position + normal * shot.lift;
+            let to = receiver.position + normal * shot.lift();
             if from.is_none() && side > 0.0 {
                 self.scratch.lit.push((index, form_factor));
                 self.scratch.targets.push(Target { point: to, ignore: receiver.triangle });
                 continue;
             }
-            let from = from.unwrap_or(cell.centroid) + shot.normal * (side * shot.lift);
+            let from = from.unwrap_or(cell.centroid) + shot.normal * (side * shot.lift());
             let ignore = [shot.triangle, receiver.triangle];
             self.counts.rays += 1;
             if !shot.occluder.occluded(&Segment { from, to, ignore }) {
@@ -218,7 +230,7 @@ impl Run<'_> {
         if lit.is_empty() {
             return;
         }
-        let from = cell.centroid + self.shot.normal * self.shot.lift;
+        let from = cell.centroid + self.shot.normal * self.shot.lift();
         blocked.clear();
         blocked.resize(targets.len(), false);
         self.shot.occluder.occluded_batch(from, self.shot.triangle, targets, blocked);

@@ -150,3 +150,55 @@ fn elements_are_about_as_many_as_asked() {
         assert!(got <= asked.max(12) && got + 2 >= asked, "{asked} {got}");
     }
 }
+
+#[test]
+fn no_darkness_creeps_out_from_under_a_box() {
+    // A box stands on a floor that is not cut around it, under a wide lamp. A floor element
+    // that straddles the box's foot has corners inside, where it is dark and nobody looks.
+    let mut model = Model::new();
+    let floor = model.surface(0.5, 0.0);
+    let side = model.surface(0.0, 0.0);
+    let lamp = model.surface(0.0, 1.0);
+    model.quad([[-4., -4., 0.], [4., -4., 0.], [4., 4., 0.], [-4., 4., 0.]], floor);
+    model.quad([[-4., -4., 4.], [-4., 4., 4.], [4., 4., 4.], [4., -4., 4.]], lamp);
+    // Low, so that it throws next to no shadow.
+    let (r, h) = (1.1, 0.01);
+    let p = |x: f64, y: f64, z: f64| [r * x, r * y, h * z];
+    model.quad([p(-1., -1., 1.), p(1., -1., 1.), p(1., 1., 1.), p(-1., 1., 1.)], side);
+    model.quad([p(-1., -1., 0.), p(1., -1., 0.), p(1., -1., 1.), p(-1., -1., 1.)], side);
+    model.quad([p(1., -1., 0.), p(1., 1., 0.), p(1., 1., 1.), p(1., -1., 1.)], side);
+    model.quad([p(1., 1., 0.), p(-1., 1., 0.), p(-1., 1., 1.), p(1., 1., 1.)], side);
+    model.quad([p(-1., 1., 0.), p(-1., -1., 0.), p(-1., -1., 1.), p(-1., 1., 1.)], side);
+    let scene = model.scene();
+    let solved = solve(&scene, 4000, until(1e-3));
+    let inside = |v: glam::DVec3| v.x.abs() < r && v.y.abs() < r;
+    let mut straddling = 0;
+    for element in solved.solution.elements.iter().filter(|e| e.triangle.0 < 2) {
+        let corners = solved.solution.corners(element);
+        let n = corners.iter().filter(|c| inside(**c)).count();
+        if n == 1 || n == 2 {
+            straddling += 1;
+            // Half of an infinite lamp's light, and more: the middle of the floor sees most
+            // of the sky filled by the lamp.
+            assert!(element.corner_exitance.iter().all(|b| b[0] > 0.25), "{element:?}");
+            assert!(element.exitance[0] < element.corner_exitance[0][0], "the mean keeps the foot");
+        }
+    }
+    assert!(straddling > 10, "the test needs elements across the foot: {straddling}");
+}
+
+#[test]
+fn a_tilted_surface_does_not_light_itself() {
+    // Points of a tilted plane come out above it by rounding errors.
+    for i in 0..200 {
+        let t = f64::from(i);
+        let p = |k: f64| [(t * 0.37 + k).sin(), (t * 0.73 + 2.1 * k).cos(), (t * 0.19 - k).sin()];
+        let mut model = Model::new();
+        let lamp = model.surface(0.5, 1.0);
+        model.triangle([p(0.0), p(1.0), p(2.5)], lamp);
+        let solved = solve(&model.scene(), 8, until(1e-3));
+        for element in &solved.solution.elements {
+            assert_eq!(element.exitance, Rgb::new(1.0, 0.5, 0.0), "{i}");
+        }
+    }
+}
