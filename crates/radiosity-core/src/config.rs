@@ -60,6 +60,11 @@ pub struct ShootingConfig {
     /// between, is at most this share of the scene's mean irradiance: more rays where the
     /// light is. Smaller gives smoother penumbrae.
     pub cell_share: f64,
+    /// An element near a shooter gets receiver points inside when the shooter may bring it
+    /// more than this many times the scene's mean irradiance. Infinite: its corners always
+    /// stand for it. At 1 and below, rows of form factors no longer sum to 1 (see
+    /// docs/design.md).
+    pub bright: f64,
 }
 
 impl ShootingConfig {
@@ -71,6 +76,7 @@ impl ShootingConfig {
             exchange: Exchange::OneSided,
             tolerance: 1e-2,
             cell_share: 0.05,
+            bright: 2.0,
         }
     }
 }

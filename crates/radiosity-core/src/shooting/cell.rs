@@ -3,7 +3,8 @@
 use glam::DVec3;
 use scene::Rgb;
 
-use crate::mesh::{Mesh, Patch, bounding};
+use crate::census::Census;
+use crate::mesh::{Element, Mesh, Patch, bounding};
 
 /// A leaf may be quartered this many times for a bright shooter's penumbra: up to 16
 /// segments from one element.
@@ -13,6 +14,7 @@ const MOST_QUARTERINGS: u8 = 2;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
     pub(super) corners: [DVec3; 3],
+    /// Where its light starts, as seen from afar.
     pub(super) centroid: DVec3,
     pub(super) area: f64,
     /// Largest distance of a corner from the centroid.
@@ -53,9 +55,15 @@ impl Cell {
 }
 
 /// Lays the cells of a patch out in `cells`, the whole patch first.
-pub(super) fn cells_of(mesh: &Mesh, patch: &Patch, unshot: &[Rgb], cells: &mut Vec<Cell>) {
+pub(super) fn cells_of(
+    mesh: &Mesh,
+    census: &Census,
+    patch: &Patch,
+    unshot: &[Rgb],
+    cells: &mut Vec<Cell>,
+) {
     cells.clear();
-    cells.push(cell_of(mesh, patch.node, unshot));
+    cells.push(cell_of(mesh, census, patch.node, unshot));
     let mut nodes = vec![patch.node];
     let mut i = 0;
     while i < cells.len() {
@@ -63,22 +71,62 @@ pub(super) fn cells_of(mesh: &Mesh, patch: &Patch, unshot: &[Rgb], cells: &mut V
             cells[i].parts = Parts::Mesh(cells.len() as u32);
             for node in [child, child + 1] {
                 nodes.push(node);
-                cells.push(cell_of(mesh, node, unshot));
+                cells.push(cell_of(mesh, census, node, unshot));
             }
         }
         i += 1;
     }
 }
 
-fn cell_of(mesh: &Mesh, node: u32, unshot: &[Rgb]) -> Cell {
+/// A node with its mean unshot exitance; its light starts where most of it leaves.
+fn cell_of(mesh: &Mesh, census: &Census, node: u32, unshot: &[Rgb]) -> Cell {
     let node = &mesh.nodes[node as usize];
     let range = node.elements.start as usize..node.elements.end as usize;
+    if let [element] = &mesh.elements[range.clone()] {
+        return element_cell(mesh, census, element, unshot[range.start]);
+    }
     let mut power = Rgb::ZERO;
     let mut area = 0.0;
+    let (mut weighted, mut weight) = (DVec3::ZERO, 0.0);
     for (element, u) in mesh.elements[range.clone()].iter().zip(&unshot[range]) {
         power += *u * element.area;
         area += element.area;
+        let (centroid, _) = bounding(open_part(mesh, census, element).0);
+        let share = u.sum() * element.area;
+        weighted += centroid * share;
+        weight += share;
     }
     let parts = Parts::Quarters(MOST_QUARTERINGS);
-    Cell::new(mesh.corners(node.vertices), area, power / area, parts)
+    let mut cell = Cell::new(mesh.corners(node.vertices), area, power / area, parts);
+    if weight > 0.0 {
+        cell.centroid = weighted / weight;
+    }
+    cell
+}
+
+/// An element as a cell: the power of all of it, leaving its part in the open.
+fn element_cell(mesh: &Mesh, census: &Census, element: &Element, unshot: Rgb) -> Cell {
+    let (corners, share) = open_part(mesh, census, element);
+    let parts = Parts::Quarters(MOST_QUARTERINGS);
+    Cell::new(corners, element.area * share, unshot / share, parts)
+}
+
+/// The part of an element that does not reach under something, as a triangle, and its share
+/// of the area: each buried corner moves half of the way to the others.
+///
+/// The element's mean irradiance already counts what is covered as dark. Were its light to
+/// leave from all of it, the cover would take its toll a second time.
+fn open_part(mesh: &Mesh, census: &Census, element: &Element) -> ([DVec3; 3], f64) {
+    let corners = mesh.corners(element.vertices);
+    let buried = element.points.map(|p| census.buried(p));
+    let [a, b, c] = corners;
+    match buried {
+        [true, false, false] => ([a.midpoint(b.midpoint(c)), b, c], 0.5),
+        [false, true, false] => ([a, b.midpoint(c.midpoint(a)), c], 0.5),
+        [false, false, true] => ([a, b, c.midpoint(a.midpoint(b))], 0.5),
+        [false, true, true] => ([a, b.midpoint(a), c.midpoint(a)], 0.25),
+        [true, false, true] => ([a.midpoint(b), b, c.midpoint(b)], 0.25),
+        [true, true, false] => ([a.midpoint(c), b.midpoint(c), c], 0.25),
+        [false, false, false] | [true, true, true] => (corners, 1.0),
+    }
 }

@@ -244,9 +244,9 @@ impl<'a, E: Executor> Shooting<'a, E> {
         let (mesh, exchange) = (self.mesh, self.config.exchange);
         let patch = &mesh.patches[shooter];
         let root = &mesh.roots[mesh.nodes[patch.node as usize].root as usize];
-        cell::cells_of(mesh, patch, &self.state.unshot, &mut self.cells);
-        let brightness = self.brightness(self.cells[0].unshot);
-        self.near.find(mesh, patch, exchange, brightness);
+        cell::cells_of(mesh, self.census, patch, &self.state.unshot, &mut self.cells);
+        let light = self.brightness(self.cells[0].unshot) / self.config.bright;
+        self.near.find(mesh, patch, exchange, light);
         let shot = Shot {
             occluder: self.occluder,
             cells: &self.cells,

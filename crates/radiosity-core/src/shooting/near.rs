@@ -1,7 +1,12 @@
 //! Elements so near a bright shooter that their corners do not stand for their area.
 //!
 //! Such an element gets receiver points inside: the more of them, the nearer, the smaller
-//! and the brighter the shooter is.
+//! and the brighter the shooter is. Where a lamp touches a wall, its foot and its shadow lie
+//! inside single elements, and there most of the error of the means arises.
+//!
+//! Shooters no brighter than others must not get them: the form factors of one corner to all
+//! it sees sum to 1, and so do the means of corners; a mixture of two rules does not, and at
+//! reflectance ρ a row that is off by δ is off by δ/(1 − ρ) in the light.
 
 use std::f64::consts::PI;
 
@@ -17,16 +22,6 @@ const NEAR_RADII: f64 = 1.0;
 
 /// A near element is quartered at most this often: 64 parts of six points.
 const MOST_QUARTERINGS: u32 = 3;
-
-/// A near element gets points inside when the shooter may bring it more than this many times
-/// the scene's mean irradiance, and is quartered until no part may get more: where a lamp
-/// touches a wall, its foot and its shadow lie inside single elements, and there most of the
-/// error of the means arises.
-///
-/// Shooters no brighter than others must not: the form factors of one corner to all it sees
-/// sum to 1, and so do the means of corners; a mixture of two rules would not, and at
-/// reflectance ρ a row that is off by δ is off by δ/(1 − ρ) in the light.
-const BRIGHT: f64 = 2.0;
 
 /// Six points on a triangle, exact for quartics: two orbits of (weight, a); corner weights
 /// (1 − 2a, a, a) (Dunavant 1985, degree 4).
@@ -57,14 +52,9 @@ pub(super) struct Near {
 impl Near {
     /// Finds the elements near a shooter and places points in them.
     ///
-    /// `brightness` is the shooter's unshot exitance over the scene's mean irradiance.
-    pub(super) fn find(
-        &mut self,
-        mesh: &Mesh,
-        shooter: &Patch,
-        exchange: Exchange,
-        brightness: f64,
-    ) {
+    /// `light` is the shooter's unshot exitance over what [`bright`](crate::ShootingConfig::bright)
+    /// asks for: at 1 and below, nothing is near.
+    pub(super) fn find(&mut self, mesh: &Mesh, shooter: &Patch, exchange: Exchange, light: f64) {
         self.elements.clear();
         self.points.clear();
         self.weights.clear();
@@ -75,7 +65,7 @@ impl Near {
             normal: mesh.roots[mesh.nodes[shooter.node as usize].root as usize].normal,
             area: elements.iter().map(|e| e.area).sum(),
             exchange,
-            brightness,
+            light,
         };
         for patch in &mesh.patches {
             // An element lies inside its patch's sphere, and its radius is at most the patch's.
@@ -114,7 +104,7 @@ impl Near {
         let gap = centroid.distance(source.patch.centroid) - radius - source.patch.radius;
         let in_front = |c: &DVec3| source.normal.dot(*c - source.patch.centroid) > 0.0;
         let facing = source.exchange == Exchange::Paired || corners.iter().any(in_front);
-        let light = source.light(gap) / BRIGHT;
+        let light = source.light_across(gap);
         if gap > NEAR_RADII * radius || !facing || light <= 1.0 {
             return;
         }
@@ -152,15 +142,15 @@ struct Source<'a> {
     normal: DVec3,
     area: f64,
     exchange: Exchange,
-    brightness: f64,
+    light: f64,
 }
 
 impl Source<'_> {
-    /// At most what the shooter brings across this gap, over the scene's mean irradiance.
-    fn light(&self, gap: f64) -> f64 {
+    /// At most what the shooter brings across this gap.
+    fn light_across(&self, gap: f64) -> f64 {
         // The form factor is at most 1, and at most that of the whole shooter face to face.
         let form_factor = if gap > 0.0 { (self.area / (PI * gap * gap)).min(1.0) } else { 1.0 };
-        self.brightness * form_factor
+        self.light * form_factor
     }
 
     /// How often to quarter an element of this radius.

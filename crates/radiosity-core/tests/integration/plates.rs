@@ -86,3 +86,31 @@ fn a_screen_in_between_leaves_only_its_own_shadow() {
     let solved = solve(&scene, 128, until(1e-3));
     assert_eq!(solved.solution.triangle_exitance(&scene)[2], Rgb::ZERO);
 }
+
+#[test]
+fn points_inside_help_where_a_lamp_touches_a_wall() {
+    // A lamp of height .1 stands on a wall 1 wide; the wall's mean irradiance is exactly the
+    // form factor between perpendicular rectangles with a common edge (Howell, C-14).
+    let (h, w) = (0.1f64, 1.0f64);
+    let (h2, w2) = (h * h, w * w);
+    let logs = ((1.0 + w2) * (1.0 + h2) / (1.0 + w2 + h2)).ln()
+        + w2 * (w2 * (1.0 + w2 + h2) / ((1.0 + w2) * (w2 + h2))).ln()
+        + h2 * (h2 * (1.0 + h2 + w2) / ((1.0 + h2) * (h2 + w2))).ln();
+    let root = (h2 + w2).sqrt();
+    let exact = (w * (1.0 / w).atan() + h * (1.0 / h).atan() - root * (1.0 / root).atan()
+        + logs / 4.0)
+        / (std::f64::consts::PI * w);
+    let mut model = Model::new();
+    let wall = model.surface(0.5, 0.0);
+    let lamp = model.surface(0.0, 1.0);
+    model.quad([[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]], wall);
+    model.quad([[0., 0., 0.], [0., 1., 0.], [0., 1., h], [0., 0., h]], lamp);
+    let scene = model.scene();
+    let error = |bright: f64| {
+        let config = radiosity_core::ShootingConfig { bright, ..until(1e-6) };
+        let b = solve(&scene, 300, config).solution.triangle_exitance(&scene);
+        ((b[0][0] + b[1][0]) / 2.0 / (0.5 * exact) - 1.0).abs()
+    };
+    let (corners, inside) = (error(f64::INFINITY), error(2.0));
+    assert!(inside < 0.01 && inside < corners / 5.0, "{inside} {corners}");
+}
