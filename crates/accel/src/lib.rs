@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod aabb;
+mod batch;
 mod block;
 mod brute_force;
 pub mod bvh;

@@ -31,9 +31,9 @@ impl MeshConfig {
     }
 }
 
-/// Patches of 12 elements at 10,000 elements, growing with the square root.
+/// Patches of at most 20 elements at 10,000 elements, growing with the square root.
 fn patch_size(elements: usize) -> usize {
-    let size = 12.0 * (elements as f64 / 10_000.0).sqrt();
+    let size = 20.0 * (elements as f64 / 10_000.0).sqrt();
     (size.round() as usize).clamp(4, 256)
 }
 

@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::build::MAX_DEPTH;
 use super::{Bvh, LEAF, WIDTH};
+use crate::batch::with_last_blocker;
 use crate::local::{LocalSegment, Slabs};
 use crate::{Occluder, Segment, Target};
 
@@ -51,22 +52,13 @@ impl Occluder for Bvh {
     }
 
     fn occluded_batch(&self, from: DVec3, ignore: u32, targets: &[Target], blocked: &mut [bool]) {
-        assert_eq!(targets.len(), blocked.len(), "one answer per target");
-        let from = self.frame.local(from);
-        // Neighbouring targets tend to hide behind the same triangles.
-        let mut last = None;
-        for (target, answer) in targets.iter().zip(blocked) {
-            let to = self.frame.local(target.point);
-            let ignore = [ignore, target.ignore];
-            let local = LocalSegment::from_local(&self.frame, from, to, ignore);
-            *answer = local.is_some_and(|local| {
-                if last.is_some_and(|block: usize| self.blocks[block].blocks(&local)) {
-                    return true;
-                }
-                let found = self.blocking_block(&local);
-                last = found.or(last);
-                found.is_some()
-            });
-        }
+        with_last_blocker(
+            &self.frame,
+            (from, ignore),
+            targets,
+            blocked,
+            |local, block: usize| self.blocks[block].blocks(local),
+            |local| self.blocking_block(local),
+        );
     }
 }

@@ -18,6 +18,7 @@
 //! direction and none against it, so the walk ends.
 
 use super::{Cell, DEPTH_LIMIT, INNER, Octree};
+use crate::batch::with_last_blocker;
 use crate::block::{Block, LANES};
 use crate::local::LocalSegment;
 use crate::{Occluder, Segment, Target};
@@ -123,22 +124,13 @@ impl Occluder for Octree {
     }
 
     fn occluded_batch(&self, from: DVec3, ignore: u32, targets: &[Target], blocked: &mut [bool]) {
-        assert_eq!(targets.len(), blocked.len(), "one answer per target");
-        let from = self.frame.local(from);
-        // Neighbouring targets tend to hide behind the same triangles.
-        let mut last = None;
-        for (target, answer) in targets.iter().zip(blocked) {
-            let to = self.frame.local(target.point);
-            let ignore = [ignore, target.ignore];
-            let local = LocalSegment::from_local(&self.frame, from, to, ignore);
-            *answer = local.is_some_and(|local| {
-                if last.is_some_and(|last| self.blocking_among(&local, [last; LANES]).is_some()) {
-                    return true;
-                }
-                let found = self.blocking_triangle(&local);
-                last = found.or(last);
-                found.is_some()
-            });
-        }
+        with_last_blocker(
+            &self.frame,
+            (from, ignore),
+            targets,
+            blocked,
+            |local, last| self.blocking_among(local, [last; LANES]).is_some(),
+            |local| self.blocking_triangle(local),
+        );
     }
 }
