@@ -22,6 +22,9 @@ pub(super) struct Cell {
     pub(super) longest: f64,
     /// Mean unshot exitance.
     pub(super) unshot: Rgb,
+    /// Share of it that lies in the open; below 1 for an element that reaches under
+    /// something.
+    pub(super) open: f64,
     /// What may replace it.
     pub(super) parts: Parts,
 }
@@ -41,15 +44,16 @@ impl Cell {
         let [a, b, c] = corners;
         let longest =
             (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-        Self { corners, centroid, area, radius, longest: longest.sqrt(), unshot, parts }
+        Self { corners, centroid, area, radius, longest: longest.sqrt(), unshot, open: 1.0, parts }
     }
 
-    /// The four similar quarters of a cell that the mesh does not split.
+    /// The four similar quarters of a cell that the mesh does not split. What is covered
+    /// of it blocks the light of the quarters there, so all shine like the open part.
     pub(super) fn quarters(&self, left: u8) -> [Self; 4] {
         let [a, b, c] = self.corners;
         let (ab, bc, ca) = (a.midpoint(b), b.midpoint(c), c.midpoint(a));
         [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]].map(|corners| {
-            Self::new(corners, self.area / 4.0, self.unshot, Parts::Quarters(left - 1))
+            Self::new(corners, self.area / 4.0, self.unshot / self.open, Parts::Quarters(left - 1))
         })
     }
 }
@@ -91,7 +95,7 @@ fn cell_of(mesh: &Mesh, census: &Census, node: u32, unshot: &[Rgb]) -> Cell {
     for (element, u) in mesh.elements[range.clone()].iter().zip(&unshot[range]) {
         power += *u * element.area;
         area += element.area;
-        let (centroid, _) = bounding(open_part(mesh, census, element).0);
+        let (centroid, _) = open_part(mesh, census, element);
         let share = u.sum() * element.area;
         weighted += centroid * share;
         weight += share;
@@ -104,29 +108,28 @@ fn cell_of(mesh: &Mesh, census: &Census, node: u32, unshot: &[Rgb]) -> Cell {
     cell
 }
 
-/// An element as a cell: the power of all of it, leaving its part in the open.
+/// An element as a cell: seen from afar, its light starts in its open part.
+///
+/// The element's mean irradiance counts what is covered as dark. Were its light to start
+/// from under the cover, the cover would take its toll a second time.
 fn element_cell(mesh: &Mesh, census: &Census, element: &Element, unshot: Rgb) -> Cell {
-    let (corners, share) = open_part(mesh, census, element);
     let parts = Parts::Quarters(MOST_QUARTERINGS);
-    Cell::new(corners, element.area * share, unshot / share, parts)
+    let mut cell = Cell::new(mesh.corners(element.vertices), element.area, unshot, parts);
+    (cell.centroid, cell.open) = open_part(mesh, census, element);
+    cell
 }
 
-/// The part of an element that does not reach under something, as a triangle, and its share
-/// of the area: each buried corner moves half of the way to the others.
-///
-/// The element's mean irradiance already counts what is covered as dark. Were its light to
-/// leave from all of it, the cover would take its toll a second time.
-fn open_part(mesh: &Mesh, census: &Census, element: &Element) -> ([DVec3; 3], f64) {
+/// The middle of the part of an element that does not reach under something, and its share
+/// as the mean of the corners sees it.
+fn open_part(mesh: &Mesh, census: &Census, element: &Element) -> (DVec3, f64) {
     let corners = mesh.corners(element.vertices);
-    let buried = element.points.map(|p| census.buried(p));
-    let [a, b, c] = corners;
-    match buried {
-        [true, false, false] => ([a.midpoint(b.midpoint(c)), b, c], 0.5),
-        [false, true, false] => ([a, b.midpoint(c.midpoint(a)), c], 0.5),
-        [false, false, true] => ([a, b, c.midpoint(a.midpoint(b))], 0.5),
-        [false, true, true] => ([a, b.midpoint(a), c.midpoint(a)], 0.25),
-        [true, false, true] => ([a.midpoint(b), b, c.midpoint(b)], 0.25),
-        [true, true, false] => ([a.midpoint(c), b.midpoint(c), c], 0.25),
-        [false, false, false] | [true, true, true] => (corners, 1.0),
+    let (centroid, _) = bounding(corners);
+    let in_the_open = |i: &usize| !census.buried(element.points[*i]);
+    let open = (0..3).filter(in_the_open).count();
+    if open == 0 || open == 3 {
+        return (centroid, 1.0);
     }
+    let middle: DVec3 = (0..3).filter(in_the_open).map(|i| corners[i]).sum::<DVec3>() / open as f64;
+    // Half of the way to the open corners: the cover ends anywhere in between.
+    (centroid.midpoint(middle), open as f64 / 3.0)
 }

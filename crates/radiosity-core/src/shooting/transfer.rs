@@ -14,7 +14,7 @@ use crate::form_factor::{Rule, centroid_kernel, lambert, three_point_kernel};
 use crate::mesh::ReceiverPoint;
 
 /// A cell of several elements serves a point only beyond this many of its radii: nearer,
-/// the elements' own unshot exitances matter.
+/// the elements' own unshot exitances matter. So does which part of an element is covered.
 const OPEN_RADII: f64 = 2.5;
 
 /// Segments start and end this far above their surfaces, as a share of the scene's extent:
@@ -123,10 +123,11 @@ impl Shot<'_> {
         side: f64,
         share: f64,
     ) -> bool {
-        let distance = receiver.position.distance(cell.centroid);
+        let near = receiver.position.distance(cell.centroid) < OPEN_RADII * cell.radius;
         match cell.parts {
             Parts::Quarters(0) => return false,
-            Parts::Mesh(_) if distance < OPEN_RADII * cell.radius => return true,
+            Parts::Mesh(_) if near => return true,
+            Parts::Quarters(_) if cell.open < 1.0 && near => return true,
             _ => {}
         }
         let (x, c) = (receiver.position, cell.centroid);
