@@ -156,8 +156,9 @@ pub(crate) struct PlanArgs {
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-A .tri file holds a scene again; .glb and .ply hold the geometry with its materials, showing
-emittance alone. What the target format cannot hold is listed as warnings.")]
+.tri    a scene again; what it cannot hold is listed as warnings
+.glb    a scene again, grouped by material, with its surfaces in `extras`
+.ply    the geometry alone, showing its emittance")]
 pub(crate) struct ConvertArgs {
     /// Scene file to read: .tri, .obj, .gltf or .glb
     #[arg(value_name = "IN")]

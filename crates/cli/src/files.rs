@@ -1,6 +1,6 @@
 //! Checks on the files to write, before any work is lost on them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 
@@ -16,4 +16,30 @@ pub(crate) fn check(path: &Path) -> Result<(), Failure> {
     }
     let missing = folder.display();
     Err(Failure::Failed(format!("{shown}: there is no folder {missing}; make it first")))
+}
+
+/// Refuses to write two things into one file, or anything into the scene's own.
+pub(crate) fn check_apart(scene: Option<&Path>, outputs: &[&Path]) -> Result<(), Failure> {
+    let place = |path: &Path| -> PathBuf {
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        let whole = folder.join(path.file_name().unwrap_or_default());
+        whole.canonicalize().unwrap_or(whole)
+    };
+    for (i, path) in outputs.iter().enumerate() {
+        let shown = path.display();
+        if path.as_os_str() == "-" {
+            return Err(Failure::Usage("--report -: expected a file; stdout is for -o -".into()));
+        }
+        if scene.is_some_and(|scene| place(scene) == place(path)) {
+            return Err(Failure::Usage(format!("{shown}: is the scene itself; name another file")));
+        }
+        let special = std::fs::metadata(path).is_ok_and(|m| !m.is_file());
+        if !special && outputs[..i].iter().any(|other| place(other) == place(path)) {
+            return Err(Failure::Usage(format!(
+                "{shown}: named twice; one would replace the other"
+            )));
+        }
+    }
+    Ok(())
 }

@@ -126,6 +126,11 @@ fn refuse_endless(reason: StopReason) -> Result<(), Failure> {
              light per bounce; lower a reflectance or open the scene"
                 .into(),
         )),
+        StopReason::Diverged => Err(Failure::Failed(
+            "the light grows from bounce to bounce: surfaces that face the same way lie in one \
+             another, and each takes the light of all; take the copies out"
+                .into(),
+        )),
         _ => Ok(()),
     }
 }

@@ -138,6 +138,7 @@ pub(crate) fn reason(reason: StopReason) -> &'static str {
         StopReason::Stopped => "stopped",
         StopReason::Stalled => "stalled",
         StopReason::Singular => "singular",
+        StopReason::Diverged => "diverged",
     }
 }
 

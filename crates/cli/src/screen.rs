@@ -2,6 +2,8 @@
 
 use std::io::Write;
 
+use crate::failure::Failure;
+
 /// Says something on stderr. A reader that went away is no reason to fail.
 pub(crate) fn say(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
@@ -17,9 +19,15 @@ pub(crate) fn warning(message: &str) {
     say(&format!("radiosity: warning: {message}"));
 }
 
-/// Prints a line of a command's result on stdout.
-pub(crate) fn result(line: &str) {
-    let _ = writeln!(std::io::stdout().lock(), "{line}");
+/// Prints a line of a command's result on stdout. A reader that went away has had enough;
+/// any other error is a failure.
+pub(crate) fn result(line: &str) -> Result<(), Failure> {
+    match writeln!(std::io::stdout().lock(), "{line}") {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(Failure::Failed(format!("stdout: {e}")))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Warnings of one kind shown before the rest are only counted.

@@ -60,6 +60,9 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
         let message = "--exposure: expected a number of stops from -64 to 64";
         return Err(Failure::Usage(message.into()));
     }
+    if outputs.iter().filter(|t| **t == Target::Stdout).count() > 1 {
+        return Err(Failure::Usage("-o -: stdout takes one table, and is named twice".into()));
+    }
     Ok(Solve {
         scene: args.scene,
         outputs,
@@ -75,8 +78,8 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
 pub(crate) fn work(args: &WorkArgs) -> Result<Work, Failure> {
     // Ids are 32 bits wide, and a forest has up to two nodes per element.
     const MOST: usize = 1 << 30;
-    if args.elements.is_some_and(|n| n > MOST) {
-        return Err(Failure::Usage(format!("--elements: expected at most {MOST}")));
+    if args.elements.is_some_and(|n| !(1..=MOST).contains(&n)) {
+        return Err(Failure::Usage(format!("--elements: expected 1 to {MOST}")));
     }
     const MOST_THREADS: usize = 4096;
     if args.threads > MOST_THREADS {

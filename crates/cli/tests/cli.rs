@@ -196,7 +196,13 @@ fn wrong_command_lines_exit_with_2_before_any_work() {
         &["solve", "box.tri", "-o", "a.csv", "--converge", "7"],
         &["solve", "box.tri", "-o", "a.png", "--camera", "none such"],
         &["solve", "box.tri", "-o", "a.csv", "--no-such-flag"],
+        &["solve", "box.tri", "-o", "box.tri"],
+        &["solve", "box.tri", "-o", "a.csv", "-o", "./a.csv"],
+        &["solve", "box.tri", "-o", "a.csv", "--report", "a.csv"],
+        &["solve", "box.tri", "-o", "-", "-o", "-"],
+        &["solve", "box.tri", "-o", "a.csv", "--elements", "0"],
         &["convert", "box.tri", "box.csv"],
+        &["convert", "box.tri", "box.tri"],
         &["compare", "a.csv"],
         &["no-such-command"],
     ] {
@@ -336,4 +342,45 @@ fn convert_keeps_the_light() {
         let error = power(file) / expected - 1.0;
         assert!(error.abs() <= bound, "{file}: {error}");
     }
+}
+
+#[test]
+fn copies_of_a_surface_take_its_light_once() {
+    // Each triangle twice: the same light as once, and rows for the copies.
+    let once = box_tri();
+    let (folder, _) = folder_with("once.tri", once.as_bytes());
+    std::fs::write(folder.path().join("twice.tri"), once.repeat(2)).unwrap();
+    let rows = |scene: &str| {
+        let run = radiosity(folder.path(), &["solve", scene, "--elements", "100", "-o", "-"]);
+        assert_eq!(run.code(), 0, "{}", run.stderr());
+        run.stdout().lines().skip(1).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let (once, twice) = (rows("once.tri"), rows("twice.tri"));
+    assert_eq!(twice.len(), 24);
+    assert_eq!(once, twice[..12]);
+}
+
+#[test]
+fn one_triangle_far_away_is_warned_of() {
+    let far = box_tri() + "Triangle 9 9 9 0 0 0 1e6 0 0 1000001 0 0 1e6 1 0";
+    let (folder, _) = folder_with("far.tri", far.as_bytes());
+    let run = radiosity(folder.path(), &["solve", "far.tri", "--elements", "100", "-o", "a.csv"]);
+    assert!(run.stderr().contains("take out what lies far away"), "{}", run.stderr());
+}
+
+#[cfg(unix)]
+#[test]
+fn links_stay_links_and_modes_stay() {
+    use std::os::unix::fs::PermissionsExt;
+    let (folder, _) = folder_with("box.tri", box_tri().as_bytes());
+    let target = folder.path().join("target.csv");
+    std::fs::write(&target, "old").unwrap();
+    std::fs::set_permissions(&target, std::fs::Permissions::from_mode(0o600)).unwrap();
+    let link = folder.path().join("link.csv");
+    std::os::unix::fs::symlink("target.csv", &link).unwrap();
+    let args = ["solve", "box.tri", "--elements", "100", "-o", "link.csv"];
+    assert_eq!(radiosity(folder.path(), &args).code(), 0);
+    assert!(link.symlink_metadata().unwrap().is_symlink());
+    assert!(std::fs::read_to_string(&target).unwrap().starts_with("triangle,"));
+    assert_eq!(target.metadata().unwrap().permissions().mode() & 0o777, 0o600);
 }

@@ -64,19 +64,40 @@ pub fn write(
 
 /// Replaces a file by what `fill` writes, all of it or not at all: how every output is made.
 ///
+/// A link stays a link, and the file it leads to is replaced; a device or a pipe cannot be
+/// replaced and is written to. A process that is killed while it writes leaves its temporary,
+/// `.output-*.part`, behind.
+///
 /// # Errors
 /// What `fill` or the file system answers; the old file then stays as it was.
 pub fn replace_file(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> Result<(), Error>,
 ) -> Result<Written, Error> {
-    write_beside(path, fill).map_err(|error| error.at(path))
+    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let written = match std::fs::metadata(&target) {
+        Ok(there) if !there.is_file() && !there.is_dir() => write_through(&target, fill),
+        _ => write_beside(&target, fill),
+    };
+    written.map(|bytes| Written { path: path.to_owned(), bytes }).map_err(|error| error.at(path))
+}
+
+/// Writes into what is no regular file; it has no size to report.
+fn write_through(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> Result<(), Error>,
+) -> Result<u64, Error> {
+    let file = std::fs::OpenOptions::new().write(true).open(path).map_err(Error::write)?;
+    let mut out = BufWriter::new(file);
+    fill(&mut out)?;
+    out.flush().map_err(Error::write)?;
+    Ok(0)
 }
 
 fn write_beside(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> Result<(), Error>,
-) -> Result<Written, Error> {
+) -> Result<u64, Error> {
     // A rename is atomic only within one file system, so the temporary is a neighbour.
     let folder = match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -94,8 +115,11 @@ fn write_beside(
     drop(out);
     let file = temporary.as_file();
     file.sync_all().map_err(Error::write)?;
+    if let Ok(old) = std::fs::metadata(path) {
+        file.set_permissions(old.permissions()).map_err(Error::write)?;
+    }
     let bytes = file.metadata().map_err(Error::write)?.len();
     // Dropping the error drops the temporary, which removes it.
     temporary.persist(path).map_err(|e| Error::write(e.error))?;
-    Ok(Written { path: path.to_owned(), bytes })
+    Ok(bytes)
 }

@@ -17,4 +17,4 @@ pub use energy::{Ledger, RgbSum, Sum};
 pub use executor::{Executor, Sequential};
 pub use mesh::Mesh;
 pub use observer::{Control, Observer, StepReport};
-pub use shooting::{Shooting, StopReason};
+pub use shooting::{DIVERGED, Shooting, StopReason};

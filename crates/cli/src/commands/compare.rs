@@ -17,16 +17,16 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
         let pair = format!("{} and {}", args.ours.display(), args.reference.display());
         Failure::Failed(format!("{pair}: {e}"))
     })?;
-    result("measure          r          g          b      worst");
+    result("measure          r          g          b      worst")?;
     for (name, values, worst) in
         [("E1", c.e1, c.worst_e1()), ("E2", c.e2, c.worst_e2()), ("Einf", c.einf, c.worst_einf())]
     {
-        row(name, values, worst);
+        row(name, values, worst)?;
     }
     if let Some(se) = c.reference_se {
-        row("ref. se", se, se.into_iter().fold(0.0, f64::max));
+        row("ref. se", se, se.into_iter().fold(0.0, f64::max))?;
     }
-    result(&format!("over {} of {} rows", c.rows_used, reference.len()));
+    result(&format!("over {} of {} rows", c.rows_used, reference.len()))?;
     match args.at_most {
         Some(most) if c.worst_e1() > most => Err(Failure::Failed(format!(
             "E1 is {:.6} in the worst channel, expected at most {most}",
@@ -36,8 +36,8 @@ pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
     }
 }
 
-fn row(name: &str, [r, g, b]: [f64; 3], worst: f64) {
-    result(&format!("{name:<8}{r:>11.6}{g:>11.6}{b:>11.6}{worst:>11.6}"));
+fn row(name: &str, [r, g, b]: [f64; 3], worst: f64) -> Result<(), Failure> {
+    result(&format!("{name:<8}{r:>11.6}{g:>11.6}{b:>11.6}{worst:>11.6}"))
 }
 
 fn read(path: &Path) -> Result<Vec<csv::Row>, Failure> {

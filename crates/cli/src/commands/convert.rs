@@ -20,6 +20,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
         }
     };
     let read = settings::read(&args.read)?;
+    files::check_apart(Some(&args.input), &[path])?;
     files::check(path)?;
     let (file, imported) = solve::open(Some(&args.input), &read)?;
     say(&format!("{file}: {}", imported.summary));
@@ -28,7 +29,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     match format {
         Format::Tri => {
             let (records, losses) = scene_import::tri_records(scene, &read.options);
-            screen::diagnostics(&losses);
+            for loss in &losses {
+                screen::warning(&loss.to_string());
+            }
             output::replace_file(path, |out| {
                 let mut writer = Writer::new(out);
                 for record in &records {

@@ -1,6 +1,6 @@
 //! `radiosity solve`: light a scene and write it out.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use output::Format;
@@ -19,6 +19,10 @@ use crate::{bundled, files};
 /// Where the program without arguments writes.
 const BUNDLED_OUTPUTS: [&str; 3] = ["out/cornell.glb", "out/cornell.png", "out/cornell.csv"];
 const BUNDLED_REPORT: &str = "out/cornell.json";
+
+/// A form-factor defect above this share of the emitted power is worth a warning: the
+/// bundled scenes stay below half of it.
+const DEFECT_WORTH_SAYING: f64 = 0.05;
 
 /// More wrong-side light than this share of the emitted power is worth a warning: the
 /// sampling alone finds less in a scene that is rightly wound.
@@ -47,7 +51,9 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         Target::File(path) => Some(path),
         Target::Stdout => None,
     });
-    for path in paths.chain(&settings.report) {
+    let paths: Vec<&Path> = paths.chain(&settings.report).map(PathBuf::as_path).collect();
+    files::check_apart(settings.scene.as_deref(), &paths)?;
+    for path in paths {
         files::check(path)?;
     }
     let clock = Instant::now();
@@ -60,6 +66,7 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
 
     let prepared = pipeline::prepare(&imported.scene, &settings.work, &settings.read)?;
     say_prepared(&prepared);
+    warn_of_coarseness(&imported.scene, &prepared);
     let solved = pipeline::shoot(&prepared, &settings.read, settings.converge)?;
     say_solved(&solved);
 
@@ -87,6 +94,26 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     say_times(&prepared, &solved, read_seconds, output_seconds);
     say(&format!("written: {}", outputs.join(", ")));
     Ok(())
+}
+
+/// Segments keep off surfaces by a length that grows with the whole scene: one triangle far
+/// away can make it larger than the rest of the scene.
+pub(crate) fn warn_of_coarseness(scene: &Scene, prepared: &Prepared) {
+    // A twentieth of a typical triangle: its shadows and contacts begin to go wrong.
+    const WORTH_SAYING: f64 = 0.05;
+    let mut areas: Vec<f64> = scene.ids().map(|id| scene.area(id)).filter(|a| *a > 0.0).collect();
+    areas.sort_by(f64::total_cmp);
+    let Some(median) = areas.get(areas.len() / 2) else { return };
+    let resolution = prepared.mesh.resolution();
+    if resolution > WORTH_SAYING * median.sqrt() {
+        screen::warning(&format!(
+            "the scene is {:.1e} across and its triangles are {:.1e}: what is nearer to a surface \
+             than {resolution:.1e} is not seen from it, so the light will be wrong; take out \
+             what lies far away",
+            prepared.mesh.extent(),
+            median.sqrt()
+        ));
+    }
 }
 
 /// Opens a file, or the bundled scene.
@@ -169,6 +196,19 @@ fn say_solved(solved: &Solved) {
         percent(ledger.share(ledger.unshot)),
         ledger.imbalance()
     ));
+    let defect = ledger.share(ledger.form_factor_defect);
+    if defect.abs() > DEFECT_WORTH_SAYING {
+        screen::warning(&format!(
+            "form factors: {} of the power was {}; {}",
+            percent(defect.abs()),
+            if defect < 0.0 { "received and never shot" } else { "shot and never received" },
+            if defect < 0.0 {
+                "surfaces that face the same way may lie in one another, or elements are too large"
+            } else {
+                "elements may be too large for what lies between them"
+            }
+        ));
+    }
     let wrong_side = ledger.share(ledger.wrong_side);
     if wrong_side > WRONG_SIDE_WORTH_SAYING {
         screen::warning(&format!(

@@ -89,7 +89,7 @@ impl Mesh {
     /// The longest edge of the whole mesh is halved, in all triangles that share it, until
     /// there are enough elements: so no split leaves a T-vertex, and the smallest angle
     /// stays at least half of what it was (Rosenberg & Stenger 1975). Triangles without
-    /// area have no elements. Time N·log N.
+    /// area, and exact duplicates of earlier ones, have no elements. Time N·log N.
     #[must_use]
     pub fn from_scene(scene: &Scene, config: &MeshConfig) -> Self {
         let (vertices, roots, corners) = weld::roots(scene);
@@ -136,6 +136,13 @@ impl Mesh {
     #[must_use]
     pub fn extent(&self) -> f64 {
         self.extent
+    }
+
+    /// The length by which segments keep off the surfaces they join: what is nearer to a
+    /// surface than this is not seen from it. One far-away triangle makes it grow for all.
+    #[must_use]
+    pub fn resolution(&self) -> f64 {
+        crate::shooting::SEGMENT_LIFT * self.extent
     }
 
     /// The root that an element is part of.

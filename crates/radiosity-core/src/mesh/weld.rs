@@ -1,6 +1,6 @@
 //! Input triangles to roots over shared vertices.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 use scene::{Face, Scene, Sides, VertexId};
@@ -13,6 +13,9 @@ const LEAST_HEIGHT: f64 = 1e-12;
 
 /// Welds bitwise equal positions, and makes a root of each lit side of each triangle that
 /// has area: vertices, roots, and the roots' corners.
+///
+/// Of triangles over the same three vertices that face the same way, the first alone takes
+/// part: two would both receive the light of one, and give out twice of it.
 pub(super) fn roots(scene: &Scene) -> (Vec<DVec3>, Vec<Root>, Vec<[VertexId; 3]>) {
     let mut vertices = Vec::new();
     let mut known: HashMap<[u64; 3], VertexId> = HashMap::new();
@@ -24,6 +27,7 @@ pub(super) fn roots(scene: &Scene) -> (Vec<DVec3>, Vec<Root>, Vec<[VertexId; 3]>
             VertexId::from(vertices.len() - 1)
         })
     };
+    let mut seen = HashSet::new();
     let mut roots = Vec::new();
     let mut corners = Vec::new();
     for id in scene.ids() {
@@ -38,6 +42,9 @@ pub(super) fn roots(scene: &Scene) -> (Vec<DVec3>, Vec<Root>, Vec<[VertexId; 3]>
             emittance: material.emittance,
         };
         let [a, b, c] = p.map(&mut weld);
+        if !seen.insert(turned([a, b, c])) {
+            continue;
+        }
         roots.push(root);
         corners.push([a, b, c]);
         if material.sides == Sides::Both {
@@ -46,6 +53,15 @@ pub(super) fn roots(scene: &Scene) -> (Vec<DVec3>, Vec<Root>, Vec<[VertexId; 3]>
         }
     }
     (vertices, roots, corners)
+}
+
+/// The corners, turned so that the smallest comes first; the winding stays.
+fn turned([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+    match a.min(b).min(c) {
+        first if first == a => [a, b, c],
+        first if first == b => [b, c, a],
+        _ => [c, a, b],
+    }
 }
 
 fn unit_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {

@@ -35,6 +35,10 @@ const RUN: usize = 256;
 /// less than [`STALL_FALL`]: light goes round between perfect reflectors.
 const STALL_SWEEPS: u64 = 20;
 
+/// Unshot power over emitted power beyond which the solver gives up: it starts at 1, and
+/// with rows that sum to at most 1 it cannot rise.
+pub const DIVERGED: f64 = 2.0;
+
 /// Relative fall of the unshot power that counts as progress: a mean absorption of 5e-5.
 const STALL_FALL: f64 = 1e-3;
 
@@ -51,6 +55,9 @@ pub enum StopReason {
     Stopped,
     /// Unshot power no longer falls: the scene absorbs too little.
     Stalled,
+    /// Unshot power grew past [`DIVERGED`] times the emitted: surfaces lie in one another
+    /// and each takes the light of all.
+    Diverged,
     /// A closed scene in which nothing absorbs: the light has no end, and no solution.
     Singular,
 }
@@ -150,6 +157,8 @@ impl<'a, E: Executor> Shooting<'a, E> {
             Some(StopReason::Converged)
         } else if self.config.stop.max_shots.is_some_and(|most| self.shots >= most) {
             Some(StopReason::ShotLimit)
+        } else if self.unshot_share() > DIVERGED {
+            Some(StopReason::Diverged)
         } else if self.shots > self.lowest.1 + stall {
             Some(StopReason::Stalled)
         } else {
