@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use accel::Bvh;
+use accel::{Bvh, NO_TRIANGLE, Occluder, Segment};
 use glam::DVec3;
 use scene::{Rgb, Scene, Sides, TriangleId};
 
@@ -177,8 +177,10 @@ impl Look<'_> {
         let side = if self.exchange == Exchange::Paired && i % 2 == 1 { -1.0 } else { 1.0 };
         let out = self.mesh.root_of(start).normal * side;
         let from = place(self.mesh.corners(start.vertices), i);
-        let end = match self.end(from, out, direction(out, i, shift), side) {
+        let way = direction(out, i, shift);
+        let end = match self.end(from, out, way, side) {
             End::Back if self.is_buried(from, out) => End::Inside,
+            End::Back if self.another_there(from, out, way) => End::Received,
             end => end,
         };
         Sample { element, end }
@@ -194,14 +196,21 @@ impl Look<'_> {
 
     /// Where a ray from a surface ends; `side` is −1 if it leaves from the back.
     fn end(&self, from: DVec3, out: DVec3, way: DVec3, side: f64) -> End {
-        match self.bvh.nearest(from + out * (SEGMENT_LIFT * self.mesh.extent), way) {
-            None => End::Nowhere,
-            Some(hit) => {
-                let hit_material = self.scene.material_of(TriangleId(hit.triangle));
-                let received = hit_material.sides == Sides::Both || hit.front == (side > 0.0);
-                if received { End::Received } else { End::Back }
-            }
-        }
+        let from = from + out * (SEGMENT_LIFT * self.mesh.extent);
+        let Some(hit) = self.bvh.nearest(from, way) else { return End::Nowhere };
+        let material = self.scene.material_of(TriangleId(hit.triangle));
+        let received = material.sides == Sides::Both || hit.front == (side > 0.0);
+        if received { End::Received } else { End::Back }
+    }
+
+    /// Whether a second surface lies where a ray met a back: of two sheets back to back in
+    /// one place, the ray may name either, and the other one takes the light.
+    fn another_there(&self, from: DVec3, out: DVec3, way: DVec3) -> bool {
+        let lift = SEGMENT_LIFT * self.mesh.extent;
+        let Some(hit) = self.bvh.nearest(from + out * lift, way) else { return false };
+        let place = from + out * lift + way * hit.t;
+        let (from, to) = (place - way * lift, place + way * lift);
+        self.bvh.occluded(&Segment { from, to, ignore: [hit.triangle, NO_TRIANGLE] })
     }
 }
 

@@ -15,6 +15,10 @@ struct Rule {
     dev: &'static [&'static str],
 }
 
+/// What the program and the conformance cases may use.
+const BELOW_THE_PROGRAM: &[&str] =
+    &["tri-io", "scene", "scene-import", "accel", "radiosity-core", "radiosity-par", "output"];
+
 /// Every member, from the bottom up.
 const RULES: [Rule; 10] = [
     Rule { member: "tri-io", normal: &[], dev: &[] },
@@ -24,32 +28,8 @@ const RULES: [Rule; 10] = [
     Rule { member: "radiosity-core", normal: &["accel", "scene"], dev: &[] },
     Rule { member: "radiosity-par", normal: &["radiosity-core"], dev: &["accel", "scene"] },
     Rule { member: "output", normal: &["scene", "tri-io"], dev: &[] },
-    Rule {
-        member: "cli",
-        normal: &[
-            "tri-io",
-            "scene",
-            "scene-import",
-            "accel",
-            "radiosity-core",
-            "radiosity-par",
-            "output",
-        ],
-        dev: &[],
-    },
-    Rule {
-        member: "conformance",
-        normal: &[
-            "tri-io",
-            "scene",
-            "scene-import",
-            "accel",
-            "radiosity-core",
-            "radiosity-par",
-            "output",
-        ],
-        dev: &[],
-    },
+    Rule { member: "cli", normal: BELOW_THE_PROGRAM, dev: &[] },
+    Rule { member: "conformance", normal: BELOW_THE_PROGRAM, dev: &[] },
     Rule { member: "xtask", normal: &[], dev: &[] },
 ];
 

@@ -22,7 +22,7 @@ const OPEN_RADII: f64 = 2.5;
 pub(crate) const SEGMENT_LIFT: f64 = 5e-6;
 
 /// A receiver no higher above the shooter's plane than this share of the scene's extent lies
-/// in it, and gets nothing: points of the shooter itself and of its coplanar neighbours come
+/// in it, and gets nothing; nor does one whose own plane the shooter does not rise above: points of the shooter itself and of its coplanar neighbours come
 /// out at rounding errors, up to 1e-10 of the extent for scenes a million extents from the
 /// origin, and a form factor of 1/2 must not hang on those.
 const IN_PLANE: f64 = 1e-9;
@@ -102,14 +102,15 @@ impl Shot<'_> {
     #[inline]
     fn facing(&self, cell: &Cell, receiver: &ReceiverPoint) -> Option<(f64, DVec3)> {
         let height = self.normal.dot(receiver.position - cell.centroid);
+        let in_plane = IN_PLANE * self.extent;
         let side = match self.exchange {
-            _ if height.abs() <= IN_PLANE * self.extent => return None,
+            _ if height.abs() <= in_plane => return None,
             Exchange::OneSided if height < 0.0 => return None,
             Exchange::OneSided => 1.0,
             Exchange::Paired => height.signum(),
         };
         let normal = receiver.normal * side;
-        let above = |c: &DVec3| normal.dot(*c - receiver.position) > 0.0;
+        let above = |c: &DVec3| normal.dot(*c - receiver.position) > in_plane;
         cell.corners.iter().any(above).then_some((side, normal))
     }
 

@@ -155,3 +155,20 @@ fn the_observer_hears_every_shot_and_may_stop() {
     assert_eq!((reason, heard), (StopReason::Stopped, vec![1, 2, 3]));
     assert!(shooting.ledger().imbalance() < 1e-12, "a stopped solution is still whole");
 }
+
+#[test]
+fn sheets_back_to_back_in_one_place_are_no_wrong_side() {
+    // Two closed cubes that share a wall: its two sheets lie in one place.
+    let mut model = Model::new();
+    let wall = model.surface(0.5, 0.0);
+    let lamp = model.surface(0.5, 1.0);
+    model.cube_at(0.0, [wall, lamp, wall, wall, wall, wall]);
+    model.cube_at(1.0, [wall; 6]);
+    let solved = solve(&model.scene(), 400, until(1e-3));
+    assert_eq!(solved.ledger.wrong_side[0], 0.0);
+    // And no light passes them.
+    let dark = |e: &&scene::SolutionElement| e.triangle.0 >= 12;
+    for e in solved.solution.elements.iter().filter(dark) {
+        assert_eq!(e.exitance[0], 0.0, "{e:?} {:?}", solved.solution.corners(e));
+    }
+}

@@ -45,7 +45,12 @@ impl Model {
 
     /// A unit cube seen from inside: floor, ceiling, and four walls, each with a material.
     pub(crate) fn cube(&mut self, materials: [MaterialId; 6]) {
-        let p = |i: usize| [(i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64];
+        self.cube_at(0.0, materials);
+    }
+
+    /// The same, moved along x.
+    pub(crate) fn cube_at(&mut self, x: f64, materials: [MaterialId; 6]) {
+        let p = |i: usize| [x + (i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64];
         let faces =
             [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
         for (face, material) in faces.into_iter().zip(materials) {
