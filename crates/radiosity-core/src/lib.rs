@@ -5,7 +5,6 @@ mod census;
 mod config;
 mod energy;
 mod executor;
-pub mod form_factor;
 pub mod mesh;
 mod observer;
 mod reconstruct;

@@ -16,16 +16,25 @@ struct Rule {
 }
 
 /// What the program and the conformance cases may use.
-const BELOW_THE_PROGRAM: &[&str] =
-    &["tri-io", "scene", "scene-import", "accel", "radiosity-core", "radiosity-par", "output"];
+const BELOW_THE_PROGRAM: &[&str] = &[
+    "tri-io",
+    "scene",
+    "scene-import",
+    "accel",
+    "form-factor",
+    "radiosity-core",
+    "radiosity-par",
+    "output",
+];
 
 /// Every member, from the bottom up.
-const RULES: [Rule; 10] = [
+const RULES: [Rule; 11] = [
     Rule { member: "tri-io", normal: &[], dev: &[] },
     Rule { member: "scene", normal: &[], dev: &[] },
     Rule { member: "accel", normal: &[], dev: &[] },
     Rule { member: "scene-import", normal: &["scene", "tri-io"], dev: &[] },
-    Rule { member: "radiosity-core", normal: &["accel", "scene"], dev: &[] },
+    Rule { member: "form-factor", normal: &["accel"], dev: &[] },
+    Rule { member: "radiosity-core", normal: &["accel", "form-factor", "scene"], dev: &[] },
     Rule { member: "radiosity-par", normal: &["radiosity-core"], dev: &["accel", "scene"] },
     Rule { member: "output", normal: &["scene", "tri-io"], dev: &[] },
     Rule { member: "cli", normal: BELOW_THE_PROGRAM, dev: &[] },

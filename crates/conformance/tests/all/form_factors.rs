@@ -4,8 +4,8 @@
 //! smaller one, by Gauss's rule: it converges fast where the two are apart, slowly where they
 //! touch, and the difference between two rules tells which.
 
+use form_factor::lambert;
 use glam::DVec3;
-use radiosity_core::form_factor::lambert;
 use serde_json::Value;
 
 /// Largest difference of a closed form at a point, absolute: some hundred roundings of

@@ -12,13 +12,13 @@ mod state;
 mod transfer;
 
 use accel::Occluder;
+use form_factor::Rule;
 use scene::{Rgb, Solution};
 
 use crate::census::{Census, Lost};
 use crate::config::{Exchange, ShootingConfig};
 use crate::energy::{Ledger, RgbSum};
 use crate::executor::Executor;
-use crate::form_factor::Rule;
 use crate::mesh::Mesh;
 use crate::observer::{Control, Observer, StepReport};
 use crate::reconstruct;

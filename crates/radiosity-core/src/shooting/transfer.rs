@@ -5,12 +5,12 @@
 //! taken in runs, so that the segments of one cell share an origin.
 
 use accel::{Occluder, Segment, Target};
+use form_factor::{Rule, centroid_kernel, lambert, three_point_kernel};
 use glam::DVec3;
 use scene::Rgb;
 
 use super::cell::{Cell, Parts};
 use crate::config::Exchange;
-use crate::form_factor::{Rule, centroid_kernel, lambert, three_point_kernel};
 use crate::mesh::ReceiverPoint;
 
 /// A cell of several elements serves a point only beyond this many of its radii: nearer,

@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use form_factor::{centroid_kernel, lambert, three_point_kernel};
 use glam::DVec3;
-use radiosity_core::form_factor::{centroid_kernel, lambert, three_point_kernel};
 
 /// Points on a floor and unit triangles above it, at distances of 1 to 20.
 fn pairs() -> Vec<(DVec3, [DVec3; 3])> {

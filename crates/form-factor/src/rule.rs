@@ -1,15 +1,4 @@
-//! Form factor from a receiver point to a triangle, by the cheapest estimator that the
-//! distance allows; visibility is not part of it.
-//!
-//! A point's form factors to the surfaces around it never sum to more than 1 with
-//! [`lambert`], so receivers that use it cannot make the iteration diverge, whatever the
-//! reflectance.
-
-mod kernel;
-mod lambert;
-
-pub use kernel::{centroid_kernel, three_point_kernel};
-pub use lambert::{Clipped, lambert};
+//! Which estimator serves which distance from a point to a triangle.
 
 /// Distances, in longest edges of the shooter, beyond which a kernel rule is good enough.
 ///
