@@ -65,6 +65,19 @@ pub struct ShootingConfig {
     /// stand for it. At 1 and below, rows of form factors no longer sum to 1 (see
     /// docs/design.md).
     pub bright: f64,
+    /// Whether a uniform light may be taken out of what is unshot.
+    pub correction: Correction,
+}
+
+/// When the shooting is helped by an ambient correction: what all patches together still have
+/// to shoot is replaced, once every few shots, by the uniform light that it would become.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Correction {
+    /// When the first sweep shows that less than two fifths of the light is lost per bounce.
+    #[default]
+    Auto,
+    /// Plain shooting, whatever the reflectance.
+    Never,
 }
 
 impl ShootingConfig {
@@ -77,6 +90,7 @@ impl ShootingConfig {
             tolerance: 1e-2,
             cell_share: 0.05,
             bright: 2.0,
+            correction: Correction::Auto,
         }
     }
 }

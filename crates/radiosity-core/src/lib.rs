@@ -11,9 +11,9 @@ mod reconstruct;
 mod shooting;
 
 pub use census::{Census, Fate};
-pub use config::{Exchange, MeshConfig, ShootingConfig, StopRule};
+pub use config::{Correction, Exchange, MeshConfig, ShootingConfig, StopRule};
 pub use energy::{Ledger, RgbSum, Sum};
 pub use executor::{Executor, Sequential};
 pub use mesh::Mesh;
 pub use observer::{Control, Observer, StepReport};
-pub use shooting::{DIVERGED, Shooting, StopReason};
+pub use shooting::{DIVERGED, Gathered, Remaining, Shooting, StopReason};

@@ -46,6 +46,19 @@ impl Rgb {
         self.0[0].min(self.0[1]).min(self.0[2])
     }
 
+    /// Each channel's absolute value.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        self.map(f64::abs)
+    }
+
+    /// Channel by channel: what share of `whole` this is; 0 where `whole` is 0 or less.
+    #[must_use]
+    pub fn share_of(self, whole: Self) -> Self {
+        let share = |c: usize| if whole.0[c] > 0.0 { self.0[c] / whole.0[c] } else { 0.0 };
+        Self([0, 1, 2].map(share))
+    }
+
     /// Whether every channel is a finite number.
     #[must_use]
     pub fn is_finite(self) -> bool {

@@ -6,10 +6,6 @@ use scene::Rgb;
 use crate::census::Census;
 use crate::mesh::{Element, Mesh, Patch, bounding};
 
-/// A leaf may be quartered this many times for a bright shooter's penumbra: up to 16
-/// segments from one element.
-const MOST_QUARTERINGS: u8 = 2;
-
 /// A flat piece of the shooter with one unshot exitance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
@@ -58,16 +54,19 @@ impl Cell {
     }
 }
 
-/// Lays the cells of a patch out in `cells`, the whole patch first.
+/// Lays the cells of a patch out in `cells`, the whole patch first. A cell that the mesh does
+/// not split may be quartered `quarterings` times.
 pub(super) fn cells_of(
     mesh: &Mesh,
     census: &Census,
     patch: &Patch,
     unshot: &[Rgb],
+    quarterings: u8,
     cells: &mut Vec<Cell>,
 ) {
+    let cell_of = |node| cell_of(mesh, census, node, unshot, quarterings);
     cells.clear();
-    cells.push(cell_of(mesh, census, patch.node, unshot));
+    cells.push(cell_of(patch.node));
     let mut nodes = vec![patch.node];
     let mut i = 0;
     while i < cells.len() {
@@ -75,7 +74,7 @@ pub(super) fn cells_of(
             cells[i].parts = Parts::Mesh(cells.len() as u32);
             for node in [child, child + 1] {
                 nodes.push(node);
-                cells.push(cell_of(mesh, census, node, unshot));
+                cells.push(cell_of(node));
             }
         }
         i += 1;
@@ -83,11 +82,11 @@ pub(super) fn cells_of(
 }
 
 /// A node with its mean unshot exitance; its light starts where most of it leaves.
-fn cell_of(mesh: &Mesh, census: &Census, node: u32, unshot: &[Rgb]) -> Cell {
+fn cell_of(mesh: &Mesh, census: &Census, node: u32, unshot: &[Rgb], quarterings: u8) -> Cell {
     let node = &mesh.nodes[node as usize];
     let range = node.elements.start as usize..node.elements.end as usize;
     if let [element] = &mesh.elements[range.clone()] {
-        return element_cell(mesh, census, element, unshot[range.start]);
+        return element_cell(mesh, census, element, unshot[range.start], quarterings);
     }
     let mut power = Rgb::ZERO;
     let mut area = 0.0;
@@ -96,11 +95,11 @@ fn cell_of(mesh: &Mesh, census: &Census, node: u32, unshot: &[Rgb]) -> Cell {
         power += *u * element.area;
         area += element.area;
         let (centroid, _) = open_part(mesh, census, element);
-        let share = u.sum() * element.area;
+        let share = u.abs().sum() * element.area;
         weighted += centroid * share;
         weight += share;
     }
-    let parts = Parts::Quarters(MOST_QUARTERINGS);
+    let parts = Parts::Quarters(quarterings);
     let mut cell = Cell::new(mesh.corners(node.vertices), area, power / area, parts);
     if weight > 0.0 {
         cell.centroid = weighted / weight;
@@ -112,8 +111,14 @@ fn cell_of(mesh: &Mesh, census: &Census, node: u32, unshot: &[Rgb]) -> Cell {
 ///
 /// The element's mean irradiance counts what is covered as dark. Were its light to start
 /// from under the cover, the cover would take its toll a second time.
-fn element_cell(mesh: &Mesh, census: &Census, element: &Element, unshot: Rgb) -> Cell {
-    let parts = Parts::Quarters(MOST_QUARTERINGS);
+fn element_cell(
+    mesh: &Mesh,
+    census: &Census,
+    element: &Element,
+    unshot: Rgb,
+    quarterings: u8,
+) -> Cell {
+    let parts = Parts::Quarters(quarterings);
     let mut cell = Cell::new(mesh.corners(element.vertices), element.area, unshot, parts);
     (cell.centroid, cell.open) = open_part(mesh, census, element);
     cell

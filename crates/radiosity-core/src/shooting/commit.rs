@@ -23,11 +23,13 @@ struct Run<'a> {
 }
 
 /// Adds what arrived at the points (and inside near elements) to the elements, and sums the
-/// patches' unshot and received power.
+/// patches' unshot and received power. `arriving` has been closed already; points inside near
+/// elements take the mean of `closure` at the corners.
 pub(super) fn commit<E: Executor>(
     mesh: &Mesh,
     arriving: &[Rgb],
     near: &Near,
+    closure: Option<&[f64]>,
     state: &mut State,
     executor: &E,
 ) {
@@ -39,14 +41,19 @@ pub(super) fn commit<E: Executor>(
             for id in mesh.patches[patch].elements.clone() {
                 let element = &mesh.elements[id as usize];
                 let corners: Rgb = element.points.iter().map(|&p| arriving[p as usize]).sum();
-                let mean = near.mean(id).unwrap_or(corners / 3.0);
+                let scale = || {
+                    closure.map_or(1.0, |c| {
+                        element.points.map(|p| c[p as usize]).iter().sum::<f64>() / 3.0
+                    })
+                };
+                let mean = near.mean(id).map_or(corners / 3.0, |inside| inside * scale());
                 let i = id as usize - run.first_element;
                 if mean != Rgb::ZERO {
                     run.irradiance[i] += mean;
                     run.unshot[i] += mesh.root_of(element).reflectance * mean;
                     received += mean * element.area;
                 }
-                power += run.unshot[i] * element.area;
+                power += run.unshot[i].abs() * element.area;
             }
             run.power[slot] = power;
             run.received[slot] = received;

@@ -3,27 +3,38 @@
 //! One step: **select** the patch with the most unshot power; **transfer** its light to
 //! every receiver point, each into its own slot; **commit** what arrived to elements and
 //! patches. A step reads a frozen state, so its result does not depend on who computes what.
+//! Where little is absorbed, an **ambient** correction every few steps takes the place of
+//! hundreds of sweeps.
 
+mod account;
+mod ambient;
 mod cell;
 mod commit;
+mod detail;
+mod gather;
 mod near;
+mod remaining;
 mod select;
 mod state;
 mod transfer;
 
 use accel::Occluder;
-use form_factor::Rule;
 use scene::{Rgb, Solution};
 
-use crate::census::{Census, Lost};
-use crate::config::{Exchange, ShootingConfig};
-use crate::energy::{Ledger, RgbSum};
+use crate::census::Census;
+use crate::config::{Correction, Exchange, ShootingConfig};
+use crate::energy::RgbSum;
 use crate::executor::Executor;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, ReceiverPoint};
 use crate::observer::{Control, Observer, StepReport};
 use crate::reconstruct;
+use account::Account;
+use ambient::{Ambient, LOSS_OF_PLAIN, PER_SWEEP, Phase};
 use cell::Cell;
+use detail::Detail;
+pub use gather::Gathered;
 use near::Near;
+pub use remaining::Remaining;
 use state::State;
 pub(crate) use transfer::SEGMENT_LIFT;
 use transfer::{Counts, Receivers, Scratch, Shot};
@@ -69,19 +80,26 @@ pub struct Shooting<'a, E: Executor> {
     census: &'a Census,
     executor: &'a E,
     config: ShootingConfig,
+    /// The mesh's points, then the probes.
+    receivers: Vec<ReceiverPoint>,
     state: State,
     /// Mean irradiance, if no light escaped: emitted power over Σ A (1 − ρ).
     mean: Rgb,
     emitted: Rgb,
-    escaped: RgbSum,
-    sampled_escape: RgbSum,
-    wrong_side: RgbSum,
+    account: Account,
     shots: u64,
     counts: Counts,
     lowest: (f64, u64),
+    /// `None` where more is absorbed than a correction could be worth.
+    ambient: Option<Ambient>,
+    /// Factor on what arrives at each receiver, once rows are closed.
+    closure: Option<Vec<f64>>,
+    /// Row sums before they were closed.
+    raw_rows: Option<[f64; 2]>,
     cells: Vec<Cell>,
     near: Near,
     arriving: Vec<Rgb>,
+    seen: Vec<f64>,
     scratch: Vec<Scratch>,
 }
 
@@ -98,36 +116,53 @@ impl<'a, E: Executor> Shooting<'a, E> {
         executor: &'a E,
         config: ShootingConfig,
     ) -> Self {
-        let state = State::new(mesh);
+        Self::with_probes(mesh, occluder, census, executor, config, &[])
+    }
+
+    /// As [`Shooting::new`], with places of the caller's that receive but do not reflect:
+    /// [`Shooting::at_probes`] says what arrives there.
+    #[must_use]
+    pub fn with_probes(
+        mesh: &'a Mesh,
+        occluder: &'a dyn Occluder,
+        census: &'a Census,
+        executor: &'a E,
+        config: ShootingConfig,
+        probes: &[ReceiverPoint],
+    ) -> Self {
+        let receivers: Vec<_> = mesh.points.iter().chain(probes).copied().collect();
         let mut emitted = RgbSum::default();
         let mut absorption = RgbSum::default();
+        let mut most = 0.0f64;
         for element in &mesh.elements {
             let root = mesh.root_of(element);
             emitted.add(root.emittance * element.area);
             absorption.add((Rgb::splat(1.0) - root.reflectance) * element.area);
+            most = most.max(root.reflectance.max_channel());
         }
         let emitted = emitted.value() * sides(config.exchange);
-        let absorption = absorption.value();
-        let mean = |c: usize| if absorption[c] > 0.0 { emitted[c] / absorption[c] } else { 0.0 };
-        let mean = Rgb([0, 1, 2].map(mean));
+        let stiff = config.correction == Correction::Auto && most > 1.0 - LOSS_OF_PLAIN;
         Self {
+            state: State::new(mesh, receivers.len()),
+            mean: emitted.share_of(absorption.value()),
+            emitted,
+            ambient: stiff.then(|| Ambient::new(mesh.patches.len(), receivers.len())),
+            arriving: vec![Rgb::ZERO; receivers.len()],
+            seen: vec![0.0; receivers.len()],
             mesh,
             occluder,
             census,
             executor,
             config,
-            state,
-            mean,
-            emitted,
-            escaped: RgbSum::default(),
-            sampled_escape: RgbSum::default(),
-            wrong_side: RgbSum::default(),
+            receivers,
+            account: Account::default(),
             shots: 0,
             counts: Counts::default(),
             lowest: (f64::INFINITY, 0),
+            closure: None,
+            raw_rows: None,
             cells: Vec::new(),
             near: Near::default(),
-            arriving: vec![Rgb::ZERO; mesh.points.len()],
             scratch: Vec::new(),
         }
     }
@@ -166,18 +201,22 @@ impl<'a, E: Executor> Shooting<'a, E> {
         }
     }
 
-    /// One shot: select, transfer, commit. Does nothing when all is shot.
+    /// Asks for less unshot light than before: shooting may go on from where it stopped.
+    pub fn tighten(&mut self, unshot: f64) {
+        self.config.stop.unshot = unshot;
+    }
+
+    /// One shot: select, transfer, commit; then, where it pays, an ambient correction. Does
+    /// nothing when all is shot.
     pub fn step(&mut self) {
-        let Some(shooter) = select::brightest(&self.state.patch_power) else { return };
-        let power = self.state.patch_power[shooter] * sides(self.config.exchange);
-        let lost = self.census.lost(shooter, power, &self.state.unshot);
-        self.transfer(shooter);
-        for e in self.mesh.patches[shooter].elements.clone() {
-            self.state.unshot[e as usize] = Rgb::ZERO;
-        }
-        commit::commit(self.mesh, &self.arriving, &self.near, &mut self.state, self.executor);
-        self.account(power, lost);
+        let completing = self.ambient.as_ref().filter(|a| a.phase == Phase::Completing);
+        let chosen = completing
+            .and_then(Ambient::next_waiting)
+            .or_else(|| select::brightest(&self.state.patch_power, self.emitted));
+        let Some(shooter) = chosen else { return };
+        self.shoot(shooter);
         self.shots += 1;
+        self.help(shooter);
         let unshot = self.unshot_share();
         if unshot < self.lowest.0 * (1.0 - STALL_FALL) {
             self.lowest = (unshot, self.shots);
@@ -195,31 +234,6 @@ impl<'a, E: Executor> Shooting<'a, E> {
         }
     }
 
-    /// Where the emitted power went so far.
-    #[must_use]
-    pub fn ledger(&self) -> Ledger {
-        let k = sides(self.config.exchange);
-        let mut absorbed = RgbSum::default();
-        let mut unshot = RgbSum::default();
-        for (i, element) in self.mesh.elements.iter().enumerate() {
-            let rho = self.mesh.root_of(element).reflectance;
-            let received = self.state.irradiance[i] * element.area;
-            absorbed.add(received - rho * received * k);
-            unshot.add(self.state.unshot[i] * (element.area * k));
-        }
-        let wrong_side = self.wrong_side.value();
-        let mut defect = self.escaped;
-        defect.add(self.sampled_escape.value() * -1.0);
-        Ledger {
-            emitted: self.emitted,
-            absorbed: absorbed.value(),
-            escaped: self.escaped.value(),
-            form_factor_defect: defect.value(),
-            wrong_side,
-            unshot: unshot.value(),
-        }
-    }
-
     /// The exitance so far, unshot light included: what leaves each element.
     #[must_use]
     pub fn solution(&self) -> Solution {
@@ -227,11 +241,29 @@ impl<'a, E: Executor> Shooting<'a, E> {
         reconstruct::solution(self.mesh, self.census, irradiance, at_points)
     }
 
-    /// Unshot power over emitted power, worst channel; 0 without light.
+    /// The irradiance so far at each probe.
+    #[must_use]
+    pub fn at_probes(&self) -> &[Rgb] {
+        &self.state.at_points[self.mesh.points.len()..]
+    }
+
+    /// Whether ambient corrections take part: the first sweep lost too little light.
+    #[must_use]
+    pub fn corrected(&self) -> bool {
+        self.ambient.as_ref().is_some_and(|a| a.phase == Phase::Correcting)
+    }
+
+    /// The least and largest row sum over all receiver points before they were closed to 1;
+    /// `None` if they were not closed: light is lost, or corrections are left out.
+    #[must_use]
+    pub fn closed_rows(&self) -> Option<[f64; 2]> {
+        self.raw_rows
+    }
+
+    /// ΣA|u| over the emitted power, worst channel; 0 without light.
     fn unshot_share(&self) -> f64 {
         let unshot = self.state.unshot_power() * sides(self.config.exchange);
-        let share = |c| if self.emitted[c] > 0.0 { unshot[c] / self.emitted[c] } else { 0.0 };
-        (0..3).map(share).fold(0.0, f64::max)
+        unshot.share_of(self.emitted).max_channel()
     }
 
     /// Whether light in some lit channel can go nowhere: every reflectance is 1, and no
@@ -242,40 +274,132 @@ impl<'a, E: Executor> Shooting<'a, E> {
             && !self.census.any_lost()
     }
 
-    /// An exitance over the scene's mean irradiance, brightest channel.
-    fn brightness(&self, exitance: Rgb) -> f64 {
-        let share = |c| if self.mean[c] > 0.0 { exitance[c] / self.mean[c] } else { 0.0 };
-        (0..3).map(share).fold(0.0, f64::max)
+    /// Shoots one patch's light, be it none, and books it.
+    fn shoot(&mut self, shooter: usize) {
+        let power = self.state.power_of(self.mesh, shooter) * sides(self.config.exchange);
+        let sampled =
+            (!self.census.is_empty()).then(|| self.census.lost(shooter, power, &self.state.unshot));
+        self.transfer(shooter);
+        for e in self.mesh.patches[shooter].elements.clone() {
+            self.state.unshot[e as usize] = Rgb::ZERO;
+        }
+        let closure = self.closure.as_deref();
+        let (near, state) = (&self.near, &mut self.state);
+        commit::commit(self.mesh, &self.arriving, near, closure, state, self.executor);
+        let mut rest = RgbSum::default();
+        rest.add(power);
+        for received in &self.state.patch_received {
+            rest.add(*received * -1.0);
+        }
+        self.account.book(rest.value(), sampled);
+        self.watch(power);
     }
 
-    /// Lights every receiver point and the inside of near elements.
+    /// In the first sweep, books how much comes back.
+    fn watch(&mut self, power: Rgb) {
+        let Some(ambient) = self.ambient.as_mut().filter(|a| a.phase == Phase::Watching) else {
+            return;
+        };
+        let mut returned = Rgb::ZERO;
+        for (patch, received) in self.mesh.patches.iter().zip(&self.state.patch_received) {
+            let root = self.mesh.nodes[patch.node as usize].root as usize;
+            returned += self.mesh.roots[root].reflectance * *received;
+        }
+        ambient.watch(power, returned * sides(self.config.exchange));
+    }
+
+    /// Ambient corrections: decided on after the first sweep, made every few shots.
+    fn help(&mut self, shooter: usize) {
+        let patches = self.mesh.patches.len() as u64;
+        let Some(ambient) = self.ambient.as_mut() else { return };
+        ambient.learnt(shooter);
+        match ambient.phase {
+            Phase::Watching if self.shots >= patches => {
+                let plain = ambient.loss() >= LOSS_OF_PLAIN;
+                ambient.phase = if plain { Phase::LeftOut } else { Phase::Completing };
+            }
+            Phase::Correcting if self.shots % (patches / PER_SWEEP).max(1) == 0 => self.correct(),
+            _ => {}
+        }
+        if self.ambient.as_ref().is_some_and(|a| a.phase == Phase::Completing && a.whole()) {
+            self.close();
+            self.correct();
+        }
+    }
+
+    /// Closes the rows, if no sampled direction loses light.
+    fn close(&mut self) {
+        let closed = !self.census.is_empty() && !self.census.any_lost();
+        let Some(ambient) = self.ambient.as_mut() else { return };
+        ambient.phase = Phase::Correcting;
+        if !closed || self.config.exchange != Exchange::OneSided {
+            return;
+        }
+        let own = &ambient.rows[..self.mesh.points.len()];
+        let least = own.iter().copied().fold(f64::INFINITY, f64::min);
+        self.raw_rows = Some([least, own.iter().copied().fold(0.0, f64::max)]);
+        let (factors, gained) = ambient.close(self.mesh, &mut self.state);
+        self.account.book(gained * -1.0, Some(crate::census::Lost::default()));
+        self.closure = Some(factors);
+    }
+
+    /// One ambient correction, booked as what it stands for: a shot of all patches at once.
+    fn correct(&mut self) {
+        let Some(ambient) = &self.ambient else { return };
+        let moved = ambient.correct(self.mesh, &mut self.state);
+        let sampled = (!self.census.is_empty()).then(|| {
+            let mut lost = self.uniform_loss();
+            lost.wrong_side = lost.wrong_side * moved.factor;
+            lost.escaped = lost.escaped * moved.factor;
+            lost
+        });
+        self.account.book(moved.shot * sides(self.config.exchange) - moved.received, sampled);
+    }
+
+    /// An exitance over the scene's mean irradiance, brightest channel.
+    fn brightness(&self, exitance: Rgb) -> f64 {
+        exitance.abs().share_of(self.mean).max_channel()
+    }
+
+    /// Lights every receiver point, every probe and the inside of near elements.
     fn transfer(&mut self, shooter: usize) {
         let (mesh, exchange) = (self.mesh, self.config.exchange);
         let patch = &mesh.patches[shooter];
         let root = &mesh.roots[mesh.nodes[patch.node as usize].root as usize];
-        cell::cells_of(mesh, self.census, patch, &self.state.unshot, &mut self.cells);
+        let detail = Detail::of(&self.config);
+        let quarterings = detail.quarterings;
+        cell::cells_of(mesh, self.census, patch, &self.state.unshot, quarterings, &mut self.cells);
         let light = self.brightness(self.cells[0].unshot) / self.config.bright;
         self.near.find(mesh, patch, exchange, light);
-        let shot = Shot {
-            occluder: self.occluder,
-            cells: &self.cells,
-            normal: root.normal,
-            triangle: root.triangle.0,
-            exchange,
-            rule: Rule::for_tolerance(self.config.tolerance),
-            extent: mesh.extent,
-            negligible: self.mean * self.config.cell_share,
-        };
+        let shot = Shot::new(self.occluder, &self.cells, mesh, patch, exchange, &detail, self.mean);
+        let learn = self.ambient.as_ref().is_some_and(|a| a.wants(shooter));
+        if learn {
+            self.seen.fill(0.0);
+        }
         let mut runs: Vec<Run> = Vec::new();
         let totals = self.state.at_points.chunks_mut(RUN);
-        let slots = mesh.points.chunks(RUN).zip(self.arriving.chunks_mut(RUN));
-        runs.extend(slots.zip(totals).map(|((receivers, arriving), total)| {
-            Run::new(Receivers { points: receivers, shares: None }, arriving, Some(total))
+        let slots = self.receivers.chunks(RUN).zip(self.arriving.chunks_mut(RUN));
+        let slots = slots.zip(self.seen.chunks_mut(RUN));
+        let mut closures = self.closure.as_deref().map(|c| c.chunks(RUN));
+        runs.extend(slots.zip(totals).map(|(((receivers, arriving), seen), total)| Run {
+            receivers: Receivers { points: receivers, shares: None },
+            arriving,
+            seen: learn.then_some(seen),
+            closure: closures.as_mut().and_then(Iterator::next),
+            total: Some(total),
+            scratch: None,
+            counts: Counts::default(),
         }));
         let Near { points, weights, arriving, .. } = &mut self.near;
         let slots = points.chunks(RUN).zip(weights.chunks(RUN)).zip(arriving.chunks_mut(RUN));
-        runs.extend(slots.map(|((points, shares), arriving)| {
-            Run::new(Receivers { points, shares: Some(shares) }, arriving, None)
+        runs.extend(slots.map(|((points, shares), arriving)| Run {
+            receivers: Receivers { points, shares: Some(shares) },
+            arriving,
+            seen: None,
+            closure: None,
+            total: None,
+            scratch: None,
+            counts: Counts::default(),
         }));
         if self.scratch.len() < runs.len() {
             self.scratch.resize_with(runs.len(), Scratch::default);
@@ -283,30 +407,17 @@ impl<'a, E: Executor> Shooting<'a, E> {
         for (run, scratch) in runs.iter_mut().zip(&mut self.scratch) {
             run.scratch = Some(scratch);
         }
-        self.executor.for_each(&mut runs, |run| {
-            let Some(scratch) = run.scratch.as_deref_mut() else { return };
-            run.counts = shot.light(run.receivers, run.arriving, scratch);
-            if let Some(total) = run.total.as_deref_mut() {
-                total.iter_mut().zip(&*run.arriving).for_each(|(t, a)| *t += *a);
-            }
-        });
+        self.executor.for_each(&mut runs, |run| run.light(&shot));
         for run in &runs {
             self.counts.rays += run.counts.rays;
             self.counts.form_factors += run.counts.form_factors;
         }
-    }
-
-    /// Books one shot's power: what no element received met a back or escaped.
-    fn account(&mut self, power: Rgb, sampled: Lost) {
-        let mut rest = RgbSum::default();
-        rest.add(power);
-        for received in &self.state.patch_received {
-            rest.add(*received * -1.0);
+        if let (true, Some(ambient)) = (learn, self.ambient.as_mut()) {
+            for (i, &seen) in self.seen.iter().enumerate() {
+                ambient.rows[i] += seen;
+                ambient.reflected[i] += root.reflectance * seen;
+            }
         }
-        let rest = rest.value();
-        self.wrong_side.add(sampled.wrong_side);
-        self.escaped.add(rest - sampled.wrong_side);
-        self.sampled_escape.add(if self.census.is_empty() { rest } else { sampled.escaped });
     }
 }
 
@@ -322,18 +433,26 @@ fn sides(exchange: Exchange) -> f64 {
 struct Run<'a> {
     receivers: Receivers<'a>,
     arriving: &'a mut [Rgb],
-    /// Where to add what arrived, for the mesh's own points.
+    /// Where to sum the form factors to what is visible.
+    seen: Option<&'a mut [f64]>,
+    /// Factors on what arrives.
+    closure: Option<&'a [f64]>,
+    /// Where to add what arrived, for the mesh's own points and the probes.
     total: Option<&'a mut [Rgb]>,
     scratch: Option<&'a mut Scratch>,
     counts: Counts,
 }
 
-impl<'a> Run<'a> {
-    fn new(
-        receivers: Receivers<'a>,
-        arriving: &'a mut [Rgb],
-        total: Option<&'a mut [Rgb]>,
-    ) -> Self {
-        Self { receivers, arriving, total, scratch: None, counts: Counts::default() }
+impl Run<'_> {
+    fn light(&mut self, shot: &Shot) {
+        let Some(scratch) = self.scratch.as_deref_mut() else { return };
+        let seen = self.seen.as_deref_mut();
+        self.counts = shot.light(self.receivers, self.arriving, seen, scratch);
+        if let Some(closure) = self.closure {
+            self.arriving.iter_mut().zip(closure).for_each(|(a, k)| *a = *a * *k);
+        }
+        if let Some(total) = self.total.as_deref_mut() {
+            total.iter_mut().zip(&*self.arriving).for_each(|(t, a)| *t += *a);
+        }
     }
 }

@@ -10,12 +10,9 @@ use glam::DVec3;
 use scene::Rgb;
 
 use super::cell::{Cell, Parts};
+use super::detail::Detail;
 use crate::config::Exchange;
-use crate::mesh::ReceiverPoint;
-
-/// A cell of several elements serves a point only beyond this many of its radii: nearer,
-/// the elements' own unshot exitances matter. So does which part of an element is covered.
-const OPEN_RADII: f64 = 2.5;
+use crate::mesh::{Mesh, Patch, ReceiverPoint};
 
 /// Segments start and end this far above their surfaces, as a share of the scene's extent:
 /// 80 ulps of f32 coordinates, and less than the thinnest gap worth modelling.
@@ -41,6 +38,35 @@ pub(super) struct Shot<'a> {
     pub(super) extent: f64,
     /// Irradiance below which a cell need not be split, per channel; at least 0.
     pub(super) negligible: Rgb,
+    /// A cell of several elements serves a point only beyond this many of its radii.
+    pub(super) open_radii: f64,
+}
+
+impl<'a> Shot<'a> {
+    /// A shot of a patch whose cells are laid out in `cells`; `mean` is the scene's mean
+    /// irradiance.
+    pub(super) fn new(
+        occluder: &'a dyn Occluder,
+        cells: &'a [Cell],
+        mesh: &Mesh,
+        patch: &Patch,
+        exchange: Exchange,
+        detail: &Detail,
+        mean: Rgb,
+    ) -> Self {
+        let root = &mesh.roots[mesh.nodes[patch.node as usize].root as usize];
+        Self {
+            occluder,
+            cells,
+            normal: root.normal,
+            triangle: root.triangle.0,
+            exchange,
+            rule: Rule::for_tolerance(detail.tolerance),
+            extent: mesh.extent,
+            negligible: mean * detail.cell_share,
+            open_radii: detail.open_radii,
+        }
+    }
 }
 
 /// A run of receiver points.
@@ -77,17 +103,20 @@ pub(super) struct Scratch {
 }
 
 impl Shot<'_> {
-    /// Writes the irradiance that reaches each of `receivers` into `arriving`.
+    /// Writes the irradiance that reaches each of `receivers` into `arriving`, and adds the
+    /// form factors to all that is visible of the shooter to `seen`, if asked.
     pub(super) fn light(
         &self,
         receivers: Receivers,
         arriving: &mut [Rgb],
+        seen: Option<&mut [f64]>,
         scratch: &mut Scratch,
     ) -> Counts {
         arriving.fill(Rgb::ZERO);
         scratch.waiting.clear();
         scratch.waiting.extend(0..receivers.points.len() as u32);
-        let mut run = Run { shot: self, receivers, arriving, scratch, counts: Counts::default() };
+        let mut run =
+            Run { shot: self, receivers, arriving, seen, scratch, counts: Counts::default() };
         run.descend(&self.cells[0], 0);
         run.counts
     }
@@ -124,7 +153,7 @@ impl Shot<'_> {
         side: f64,
         share: f64,
     ) -> bool {
-        let near = receiver.position.distance(cell.centroid) < OPEN_RADII * cell.radius;
+        let near = receiver.position.distance(cell.centroid) < self.open_radii * cell.radius;
         match cell.parts {
             Parts::Quarters(0) => return false,
             Parts::Mesh(_) if near => return true,
@@ -133,7 +162,7 @@ impl Shot<'_> {
         }
         let (x, c) = (receiver.position, cell.centroid);
         let form_factor = centroid_kernel(x, normal, c, self.normal * side, cell.area);
-        (0..3).any(|k| cell.unshot[k] * form_factor * share > self.negligible[k])
+        (0..3).any(|k| cell.unshot[k].abs() * form_factor * share > self.negligible[k])
     }
 
     /// Form factor, and where on the cell a segment should start if not at its centroid.
@@ -167,6 +196,7 @@ struct Run<'a> {
     shot: &'a Shot<'a>,
     receivers: Receivers<'a>,
     arriving: &'a mut [Rgb],
+    seen: Option<&'a mut [f64]>,
     scratch: &'a mut Scratch,
     counts: Counts,
 }
@@ -175,7 +205,7 @@ impl Run<'_> {
     /// Serves the receivers waiting from `first` on, by this cell or by parts of it.
     fn descend(&mut self, cell: &Cell, first: usize) {
         let shot = self.shot;
-        if cell.unshot == Rgb::ZERO {
+        if cell.unshot == Rgb::ZERO && self.seen.is_none() {
             return;
         }
         self.scratch.lit.clear();
@@ -206,6 +236,9 @@ impl Run<'_> {
             self.counts.rays += 1;
             if !shot.occluder.occluded(&Segment { from, to, ignore }) {
                 self.arriving[index as usize] += cell.unshot * form_factor;
+                if let Some(seen) = self.seen.as_deref_mut() {
+                    seen[index as usize] += form_factor;
+                }
             }
         }
         self.test_visibility(cell);
@@ -241,6 +274,9 @@ impl Run<'_> {
             lit.iter().zip(&*blocked).filter(|(_, blocked)| !**blocked)
         {
             self.arriving[index as usize] += cell.unshot * form_factor;
+            if let Some(seen) = self.seen.as_deref_mut() {
+                seen[index as usize] += form_factor;
+            }
         }
     }
 }

@@ -8,3 +8,4 @@ mod limits;
 mod mesh;
 mod models;
 mod plates;
+mod stiff;

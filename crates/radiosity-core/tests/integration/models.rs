@@ -3,7 +3,8 @@
 use accel::{Bvh, BvhConfig};
 use glam::DVec3;
 use radiosity_core::{
-    Census, Exchange, Ledger, Mesh, MeshConfig, Sequential, Shooting, ShootingConfig, StopReason,
+    Census, Exchange, Ledger, Mesh, MeshConfig, Remaining, Sequential, Shooting, ShootingConfig,
+    StopReason,
 };
 use scene::{Material, MaterialId, Rgb, Scene, SceneBuilder, Sides, Solution};
 
@@ -69,6 +70,10 @@ pub(crate) struct Solved {
     pub(crate) reason: StopReason,
     pub(crate) shots: u64,
     pub(crate) rays: u64,
+    pub(crate) patches: usize,
+    pub(crate) corrected: bool,
+    pub(crate) remaining: Remaining,
+    pub(crate) closed_rows: Option<[f64; 2]>,
 }
 
 pub(crate) fn solve(scene: &Scene, elements: usize, config: ShootingConfig) -> Solved {
@@ -84,6 +89,10 @@ pub(crate) fn solve(scene: &Scene, elements: usize, config: ShootingConfig) -> S
         reason,
         shots: shooting.report().shots,
         rays: shooting.report().rays,
+        patches: mesh.patches().len(),
+        corrected: shooting.corrected(),
+        remaining: shooting.remaining(),
+        closed_rows: shooting.closed_rows(),
     }
 }
 

@@ -1,0 +1,72 @@
+//! Where the power went: the books of the shots.
+
+use scene::Rgb;
+
+use super::{Shooting, sides};
+use crate::census::Lost;
+use crate::energy::{Ledger, RgbSum};
+use crate::executor::Executor;
+
+/// Sums over the shots so far, W per channel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Account {
+    pub(super) escaped: RgbSum,
+    pub(super) sampled_escape: RgbSum,
+    pub(super) wrong_side: RgbSum,
+}
+
+impl Account {
+    /// Books power that was shot, of which this much arrived: what no element received met a
+    /// back or escaped. Without a census (`sampled` is `None`), all of it escaped.
+    pub(super) fn book(&mut self, rest: Rgb, sampled: Option<Lost>) {
+        let wrong_side = sampled.map_or(Rgb::ZERO, |lost| lost.wrong_side);
+        self.wrong_side.add(wrong_side);
+        self.escaped.add(rest - wrong_side);
+        self.sampled_escape.add(sampled.map_or(rest, |lost| lost.escaped));
+    }
+}
+
+impl<E: Executor> Shooting<'_, E> {
+    /// Where the emitted power went so far.
+    #[must_use]
+    pub fn ledger(&self) -> Ledger {
+        let k = sides(self.config.exchange);
+        let mut absorbed = RgbSum::default();
+        let mut unshot = RgbSum::default();
+        for (i, element) in self.mesh.elements.iter().enumerate() {
+            let rho = self.mesh.root_of(element).reflectance;
+            let received = self.state.irradiance[i] * element.area;
+            absorbed.add(received - rho * received * k);
+            unshot.add(self.state.unshot[i] * (element.area * k));
+        }
+        let mut defect = self.account.escaped;
+        defect.add(self.account.sampled_escape.value() * -1.0);
+        Ledger {
+            emitted: self.emitted,
+            absorbed: absorbed.value(),
+            escaped: self.account.escaped.value(),
+            form_factor_defect: defect.value(),
+            wrong_side: self.account.wrong_side.value(),
+            unshot: unshot.value(),
+        }
+    }
+
+    /// Where a uniform exitance ρ of all elements would be lost, as the census samples it.
+    pub(super) fn uniform_loss(&self) -> Lost {
+        let k = sides(self.config.exchange);
+        let reflectance: Vec<Rgb> =
+            self.mesh.elements.iter().map(|e| self.mesh.root_of(e).reflectance).collect();
+        let mut all = Lost::default();
+        for (i, patch) in self.mesh.patches.iter().enumerate() {
+            let power: Rgb = patch
+                .elements
+                .clone()
+                .map(|e| reflectance[e as usize] * (self.mesh.elements[e as usize].area * k))
+                .sum();
+            let lost = self.census.lost(i, power, &reflectance);
+            all.wrong_side += lost.wrong_side;
+            all.escaped += lost.escaped;
+        }
+        all
+    }
+}
