@@ -1,8 +1,13 @@
 //! The command line as it is typed.
 
+mod form_factors;
+
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Parser, Subcommand, ValueEnum};
+
+pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 
 /// Turns a triangle scene into its diffuse global illumination.
 ///
@@ -21,6 +26,9 @@ pub(crate) enum Command {
     Solve(SolveArgs),
     /// Say what a scene file holds, what looks wrong in it, and what a solve would use
     Plan(PlanArgs),
+    /// Write the form factors between groups or triangles: the share of the light leaving one
+    /// that arrives at the other
+    FormFactors(FormFactorsArgs),
     /// Rewrite a scene file in another format, unlit
     Convert(ConvertArgs),
     /// Measure how far two solutions (.csv) are apart
@@ -68,8 +76,8 @@ pub(crate) enum AccelArg {
 /// How finely and how long.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct WorkArgs {
-    /// Split the scene into about this many elements [default: 10000, or twice the scene's
-    /// triangles]
+    /// Split the scene into about this many elements, instead of refining [default with
+    /// --converge: 10000, or twice the scene's triangles]
     #[arg(long, value_name = "N")]
     pub(crate) elements: Option<usize>,
 
@@ -87,16 +95,19 @@ pub(crate) struct WorkArgs {
 Examples:
   radiosity solve room.tri -o room.csv                       exitance of each input triangle
   radiosity solve hall.obj -o hall.glb -o hall.png           lit model and picture
-  radiosity solve room.tri --elements 50000 --converge 0.01% -o fine.csv --report fine.json
+  radiosity solve room.tri --error 0.5% --max-time 60s -o fine.csv --report fine.json
+  radiosity solve room.tri --elements 50000 --converge 0.01% -o fixed.csv
+  radiosity solve room.tri --probe points.csv -o at-points.probe.csv
 
 Formats by extension:
   .csv  triangle,area,B_r,B_g,B_b: area mean of exitance, a row per input triangle
   .tri  the elements, exitance as colours 0-255     .ply  elements with float exitance
   .glb  vertex colours and linear _RADIOSITY        .png  a picture
+  .probe.csv  exitance at the places of --probe
 
 Exit codes: 0 done, 1 failed, 2 wrong command line.")]
 pub(crate) struct SolveArgs {
-    /// Scene file: .tri, .obj (with its .mtl), .gltf or .glb [default: the bundled Cornell box]
+    /// Scene file: .tri, .vs3, .obj (with its .mtl), .gltf or .glb [default: the bundled Cornell box]
     #[arg(value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
 
@@ -109,9 +120,38 @@ pub(crate) struct SolveArgs {
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
 
-    /// Stop when unshot power is at most this share of the emitted power, as 1e-3 or 0.1%
-    #[arg(long, value_name = "X", default_value = "1e-3", value_parser = share)]
-    pub(crate) converge: f64,
+    /// Refine until the stated error (E1 of the triangles' exitance) is at most this
+    /// [default: 1%, unless --elements or --converge fixes the work]
+    #[arg(long, value_name = "X", value_parser = share, conflicts_with_all = ["elements", "converge"])]
+    pub(crate) error: Option<f64>,
+
+    /// Stop refining after this time, as 500ms, 60s, 10m or 1h, and state what was reached
+    #[arg(long, value_name = "TIME", value_parser = time)]
+    pub(crate) max_time: Option<Duration>,
+
+    /// Refine to no more than this many elements
+    #[arg(long, value_name = "N")]
+    pub(crate) max_elements: Option<usize>,
+
+    /// Refine to no more elements than fit into this, as 500MB or 4GiB
+    #[arg(long, value_name = "SIZE", value_parser = memory)]
+    pub(crate) max_memory: Option<u64>,
+
+    /// Shoot until at most this share of the emitted power is unshot, as 1e-3 or 0.1%, on a
+    /// mesh of --elements [default: 1e-3 if --elements is given]
+    #[arg(long, value_name = "X", value_parser = share)]
+    pub(crate) converge: Option<f64>,
+
+    /// With --elements or --converge: solve that one mesh alone. Saves about a sixth of the
+    /// time; the report then states no error
+    #[arg(long)]
+    pub(crate) no_statement: bool,
+
+    /// Places to report the exitance at: a CSV with the columns triangle,u,v (input triangle
+    /// from 0, and barycentric: a + u (b - a) + v (c - a)), written to -o NAME.probe.csv. With a
+    /// column `area`, the mean over the part of the triangle of that area around the place
+    #[arg(long, value_name = "POINTS.csv")]
+    pub(crate) probe: Option<PathBuf>,
 
     #[command(flatten)]
     pub(crate) work: WorkArgs,
@@ -143,7 +183,7 @@ pub(crate) struct PictureArgs {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlanArgs {
-    /// Scene file: .tri, .obj (with its .mtl), .gltf or .glb
+    /// Scene file: .tri, .vs3, .obj (with its .mtl), .gltf or .glb
     #[arg(value_name = "SCENE")]
     pub(crate) scene: PathBuf,
 
@@ -160,7 +200,7 @@ pub(crate) struct PlanArgs {
 .glb    a scene again, grouped by material, with its surfaces in `extras`
 .ply    the geometry alone, showing its emittance")]
 pub(crate) struct ConvertArgs {
-    /// Scene file to read: .tri, .obj, .gltf or .glb
+    /// Scene file to read: .tri, .vs3, .obj, .gltf or .glb
     #[arg(value_name = "IN")]
     pub(crate) input: PathBuf,
 
@@ -206,6 +246,39 @@ fn share(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A time: `500ms`, `60s`, `10m` or `1h`; a bare number is seconds.
+fn time(text: &str) -> Result<Duration, String> {
+    const UNITS: [(&str, f64); 4] = [("ms", 1e-3), ("s", 1.0), ("m", 60.0), ("h", 3600.0)];
+    quantity(text, &UNITS)
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "expected a time such as 500ms, 60s, 10m or 1h".into())
+}
+
+/// A size in bytes: `500MB` or `4GiB`; a bare number is bytes.
+fn memory(text: &str) -> Result<u64, String> {
+    const UNITS: [(&str, f64); 7] = [
+        ("KiB", 1024.0),
+        ("MiB", 1_048_576.0),
+        ("GiB", 1_073_741_824.0),
+        ("kB", 1e3),
+        ("MB", 1e6),
+        ("GB", 1e9),
+        ("B", 1.0),
+    ];
+    // Beyond 2⁵³ bytes nothing is limited.
+    quantity(text, &UNITS)
+        .map(|bytes| bytes as u64)
+        .ok_or_else(|| "expected a size such as 500MB or 4GiB".into())
+}
+
+/// A number above 0 with one of these units, or none.
+fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let with = |(name, size): &(&str, f64)| text.strip_suffix(name).map(|t| (t, *size));
+    let (number, unit) = units.iter().find_map(with).unwrap_or((text, 1.0));
+    let value = number.trim_end().parse::<f64>().ok()? * unit;
+    (value > 0.0 && value.is_finite()).then_some(value)
+}
+
 /// A size in pixels: `1024x768`.
 fn size(text: &str) -> Result<(u32, u32), String> {
     let side = |t: &str| t.parse::<u32>().ok().filter(|n| (1..=16_384).contains(n));
@@ -229,6 +302,12 @@ mod tests {
         assert_eq!(share("1e-3"), Ok(1e-3));
         assert_eq!(share("0.1%"), Ok(0.1 * 0.01));
         assert!(["-1", "2", "nan", "x", "120%", ""].iter().all(|t| share(t).is_err()));
+        assert_eq!(time("1.5m"), Ok(Duration::from_secs(90)));
+        assert_eq!(time("250ms"), Ok(Duration::from_millis(250)));
+        assert!(["-1s", "0", "x", "", "1d", "1e999s"].iter().all(|t| time(t).is_err()));
+        assert_eq!(memory("4GiB"), Ok(4 << 30));
+        assert_eq!(memory("500 MB"), Ok(500_000_000));
+        assert!(["-1", "0", "lots", "4TB"].iter().all(|t| memory(t).is_err()));
         assert_eq!(size("640x480"), Ok((640, 480)));
         assert!(["640", "0x1", "1x99999", "x"].iter().all(|t| size(t).is_err()));
     }

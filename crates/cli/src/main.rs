@@ -27,6 +27,9 @@ fn main() -> ExitCode {
         Some(Command::Solve(args)) => settings::solve(args).and_then(|s| commands::solve::run(&s)),
         Some(Command::Plan(args)) => commands::plan::run(&args),
         Some(Command::Convert(args)) => commands::convert::run(&args),
+        Some(Command::FormFactors(args)) => {
+            settings::form_factors(args).and_then(|s| commands::form_factors::run(&s))
+        }
         Some(Command::Compare(args)) => commands::compare::run(&args),
     };
     match result {

@@ -1,115 +1,158 @@
 //! The way of the light: scene → mesh → occluder → shooting → solution, each step timed.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use accel::{Bvh, BvhConfig, Nothing, Occluder, Octree, OctreeConfig};
 use radiosity_core::{
-    Census, Control, Executor, Ledger, Mesh, Shooting, ShootingConfig, StepReport, StopReason,
+    Asked, Census, Control, Executor, LevelReport, Mesh, MeshConfig, Observer, Probe, Refined,
+    ShootingConfig, Statement, StepReport, StopReason, refine,
 };
 use radiosity_par::Pool;
-use scene::{Scene, Solution};
+use scene::Scene;
 
 use crate::args::AccelArg;
 use crate::failure::Failure;
-use crate::settings::{Read, Work};
+use crate::screen;
+use crate::settings::{Read, Solve, Work};
 
 /// The unshot share must fall by this factor before the curve gets another point: 23 points
 /// per decade, whatever the number of shots.
 const CURVE_STEP: f64 = 0.9;
 
-/// What was built before the first shot.
+/// What finds the occluders, and who does the work.
 pub(crate) struct Prepared {
-    pub(crate) mesh: Mesh,
-    pub(crate) census: Census,
-    pub(crate) occluder: Box<dyn Occluder>,
+    pub(crate) bvh: Bvh,
+    /// What answers in the place of the hierarchy, if asked for.
+    other: Option<Box<dyn Occluder>>,
     pub(crate) occluder_name: &'static str,
     pub(crate) occluder_bytes: usize,
     pub(crate) pool: Pool,
-    pub(crate) mesh_seconds: f64,
     pub(crate) occluder_seconds: f64,
-    pub(crate) census_seconds: f64,
 }
 
 /// A solved scene with what it took.
 pub(crate) struct Solved {
-    pub(crate) solution: Solution,
-    pub(crate) reason: StopReason,
-    pub(crate) work: StepReport,
-    pub(crate) ledger: Ledger,
+    pub(crate) refined: Refined,
     pub(crate) seconds: f64,
-    pub(crate) curve: Vec<(f64, StepReport)>,
+    pub(crate) curve: Vec<CurvePoint>,
+    /// The limit that ended the work before its goal.
+    pub(crate) limit: Option<&'static str>,
 }
 
-/// Splits the scene and builds what finds the occluders.
-pub(crate) fn prepare(scene: &Scene, work: &Work, read: &Read) -> Result<Prepared, Failure> {
-    let pool = Pool::new(work.threads)?;
-    let clock = Instant::now();
-    let mesh = Mesh::from_scene(scene, &work.mesh(scene.triangles().len()));
-    let mesh_seconds = clock.elapsed().as_secs_f64();
+/// The state of a solve at one time.
+pub(crate) struct CurvePoint {
+    pub(crate) seconds: f64,
+    pub(crate) work: StepReport,
+    /// Elements and statement, after a level of refinement.
+    pub(crate) level: Option<(usize, Option<Statement>)>,
+}
 
+/// Builds what finds the occluders.
+pub(crate) fn prepare(scene: &Scene, work: &Work) -> Result<Prepared, Failure> {
+    let pool = Pool::new(work.threads)?;
     let clock = Instant::now();
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
     let bvh = Bvh::build(&triangles, &BvhConfig::default());
-    let octree = (work.accel == AccelArg::Octree)
-        .then(|| Octree::build(&triangles, &OctreeConfig::default()));
+    let (other, occluder_name, occluder_bytes): (Option<Box<dyn Occluder>>, _, _) = match work.accel
+    {
+        AccelArg::Octree => {
+            let octree = Octree::build(&triangles, &OctreeConfig::default());
+            let bytes = octree.bytes();
+            (Some(Box::new(octree)), "octree", bytes)
+        }
+        AccelArg::None => (Some(Box::new(Nothing)), "none", 0),
+        AccelArg::Auto | AccelArg::Bvh => (None, "bvh", bvh.bytes()),
+    };
     let occluder_seconds = clock.elapsed().as_secs_f64();
-
-    let clock = Instant::now();
-    let census = Census::take(scene, &mesh, &bvh, read.exchange, &pool);
-    let census_seconds = clock.elapsed().as_secs_f64();
-
-    let (occluder, occluder_name, occluder_bytes): (Box<dyn Occluder>, _, _) =
-        match (work.accel, octree) {
-            (_, Some(octree)) => {
-                let bytes = octree.bytes();
-                (Box::new(octree), "octree", bytes)
-            }
-            (AccelArg::None, None) => (Box::new(Nothing), "none", 0),
-            _ => {
-                let bytes = bvh.bytes();
-                (Box::new(bvh), "bvh", bytes)
-            }
-        };
-    Ok(Prepared {
-        mesh,
-        census,
-        occluder,
-        occluder_name,
-        occluder_bytes,
-        pool,
-        mesh_seconds,
-        occluder_seconds,
-        census_seconds,
-    })
+    Ok(Prepared { bvh, other, occluder_name, occluder_bytes, pool, occluder_seconds })
 }
 
-/// Shoots until at most `converge` of the emitted power is unshot.
-pub(crate) fn shoot(prepared: &Prepared, read: &Read, converge: f64) -> Result<Solved, Failure> {
-    let config = ShootingConfig { exchange: read.exchange, ..ShootingConfig::until(converge) };
-    let Prepared { mesh, census, occluder, pool, .. } = prepared;
+/// Splits the scene as one mesh, and samples where its light ends up.
+pub(crate) fn mesh(
+    scene: &Scene,
+    prepared: &Prepared,
+    config: &MeshConfig,
+    read: &Read,
+) -> (Mesh, Census, Duration) {
     let clock = Instant::now();
-    let mut shooting = Shooting::new(mesh, occluder.as_ref(), census, pool, config);
-    let mut curve: Vec<(f64, StepReport)> = Vec::new();
-    let reason = shooting.run(&mut |step: &StepReport| {
-        if curve.last().is_none_or(|(_, last)| step.unshot <= last.unshot * CURVE_STEP) {
-            curve.push((clock.elapsed().as_secs_f64(), *step));
-        }
-        Control::Continue
-    });
-    refuse_endless(reason)?;
-    let seconds = clock.elapsed().as_secs_f64();
-    let work = shooting.report();
-    if curve.last().is_some_and(|(_, last)| last.shots < work.shots) {
-        curve.push((seconds, work));
-    }
-    let (solution, ledger) = (shooting.solution(), shooting.ledger());
-    Ok(Solved { solution, reason, work, ledger, seconds, curve })
+    let mesh = Mesh::from_scene(scene, config);
+    let census = Census::take(scene, &mesh, &prepared.bvh, read.exchange, &prepared.pool);
+    (mesh, census, clock.elapsed())
+}
+
+/// Solves the scene until the goal or a limit is reached.
+pub(crate) fn solve(
+    scene: &Scene,
+    prepared: &Prepared,
+    settings: &Solve,
+    probes: &[Probe],
+) -> Result<Solved, Failure> {
+    let exchange = settings.read.exchange;
+    let config = ShootingConfig { exchange, ..ShootingConfig::until(settings.goal.converge()) };
+    let asked = settings.goal.asked(scene.triangles().len());
+    let (most, which) = settings.limits.most_elements();
+    let mut watch = Watch {
+        clock: Instant::now(),
+        most: settings.limits.time,
+        curve: Vec::new(),
+        step: 0,
+        refining: matches!(asked, Asked::Error(_)),
+    };
+    let (bvh, occluder) = (&prepared.bvh, prepared.occluder());
+    let pool = &prepared.pool;
+    let refined = refine(scene, bvh, occluder, pool, config, asked, most, probes, &mut watch);
+    refuse_endless(refined.reason)?;
+    let limit = match refined.reached {
+        radiosity_core::Reached::Stopped => Some("--max-time"),
+        radiosity_core::Reached::ElementLimit => Some(which),
+        _ => None,
+    };
+    let seconds = watch.clock.elapsed().as_secs_f64();
+    Ok(Solved { refined, seconds, curve: watch.curve, limit })
 }
 
 impl Prepared {
     /// How many threads take part.
     pub(crate) fn threads(&self) -> usize {
         self.pool.threads()
+    }
+
+    fn occluder(&self) -> &dyn Occluder {
+        self.other.as_deref().unwrap_or(&self.bvh)
+    }
+}
+
+/// Looks at the clock, and keeps the curve.
+struct Watch {
+    clock: Instant,
+    most: Option<Duration>,
+    curve: Vec<CurvePoint>,
+    /// Points of the curve on earlier levels.
+    step: usize,
+    refining: bool,
+}
+
+impl Observer for Watch {
+    fn step(&mut self, report: &StepReport) -> Control {
+        let last = self.curve[self.step..].last().map(|point| point.work.unshot);
+        if last.is_none_or(|unshot| report.unshot <= unshot * CURVE_STEP) {
+            let seconds = self.clock.elapsed().as_secs_f64();
+            self.curve.push(CurvePoint { seconds, work: *report, level: None });
+        }
+        match self.most {
+            Some(most) if self.clock.elapsed() >= most => Control::Stop,
+            _ => Control::Continue,
+        }
+    }
+
+    fn level(&mut self, report: &LevelReport) {
+        let seconds = self.clock.elapsed().as_secs_f64();
+        let level = Some((report.elements, report.statement));
+        self.curve.push(CurvePoint { seconds, work: report.work, level });
+        self.step = self.curve.len();
+        if self.refining {
+            screen::level(report, seconds);
+        }
     }
 }
 

@@ -2,17 +2,17 @@
 
 use std::path::Path;
 
-use radiosity_core::{Exchange, StepReport, StopReason};
+use radiosity_core::{Exchange, Parts, Reached, Stated, Statement, StopReason};
 use scene::{Rgb, Scene};
 use scene_import::Imported;
 use serde::Serialize;
 
 use crate::failure::Failure;
-use crate::pipeline::{Prepared, Solved};
-use crate::settings::Read;
+use crate::pipeline::{self, Prepared, Solved};
+use crate::settings::{Goal, Solve};
 
 /// Version of the fields and their meaning.
-const SCHEMA: u32 = 1;
+const SCHEMA: u32 = 2;
 
 #[derive(Serialize)]
 pub(crate) struct Report {
@@ -25,6 +25,7 @@ pub(crate) struct Report {
     mesh: MeshFacts,
     occluder: OccluderFacts,
     solve: SolveFacts,
+    error: Option<ErrorFacts>,
     energy: Energy,
     seconds: Seconds,
     curve: Vec<CurvePoint>,
@@ -47,7 +48,12 @@ pub(crate) struct SceneFacts {
 
 #[derive(Serialize)]
 struct Settings {
-    converge: f64,
+    error: Option<f64>,
+    converge: Option<f64>,
+    elements: Option<usize>,
+    max_seconds: Option<f64>,
+    max_elements: Option<usize>,
+    max_bytes: Option<u64>,
     exchange: &'static str,
     threads: usize,
     light: f64,
@@ -69,11 +75,80 @@ struct OccluderFacts {
 
 #[derive(Serialize)]
 struct SolveFacts {
+    reached: &'static str,
+    limit: Option<&'static str>,
     stopped: &'static str,
     unshot: f64,
     shots: u64,
     rays: u64,
     form_factors: u64,
+    ambient_corrections: bool,
+}
+
+/// Parts of a relative error; `null` is unknown.
+#[derive(Clone, Copy, Serialize)]
+struct ErrorParts {
+    total: Option<f64>,
+    iteration: Option<f64>,
+    form_factor: Option<f64>,
+    mesh: Option<f64>,
+}
+
+/// An error in two measures: E1 in the open, Einf beside it.
+#[derive(Clone, Copy, Serialize)]
+struct StatedFacts {
+    #[serde(flatten)]
+    e1: ErrorParts,
+    largest: ErrorParts,
+}
+
+#[derive(Clone, Copy, Serialize)]
+struct ErrorFacts {
+    #[serde(flatten)]
+    triangles: StatedFacts,
+    points: StatedFacts,
+    probes: Option<StatedFacts>,
+    rows: RowFacts,
+    sample: usize,
+}
+
+/// Sums of form factors, before any closure.
+#[derive(Clone, Copy, Serialize)]
+struct RowFacts {
+    least: f64,
+    most: f64,
+    closed: Option<[f64; 2]>,
+}
+
+impl ErrorParts {
+    fn of(parts: &Parts) -> Self {
+        let known = |x: f64| x.is_finite().then_some(x);
+        Self {
+            total: known(parts.total()),
+            iteration: known(parts.iteration),
+            form_factor: known(parts.form_factor),
+            mesh: known(parts.mesh),
+        }
+    }
+}
+
+impl StatedFacts {
+    fn of(stated: &Stated) -> Self {
+        Self { e1: ErrorParts::of(&stated.e1), largest: ErrorParts::of(&stated.einf) }
+    }
+}
+
+impl ErrorFacts {
+    fn of(statement: &Statement, closed: Option<[f64; 2]>) -> Self {
+        let [least, most] = statement.rows;
+        Self {
+            triangles: StatedFacts::of(&statement.triangles),
+            points: StatedFacts::of(&statement.points),
+            probes: statement.probes.as_ref().map(StatedFacts::of),
+            rows: RowFacts { least, most, closed },
+            sample: statement.sample,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -90,10 +165,8 @@ struct Energy {
 #[derive(Serialize)]
 struct Seconds {
     read: f64,
-    mesh: f64,
     occluder: f64,
-    census: f64,
-    shooting: f64,
+    solve: f64,
     output: f64,
 }
 
@@ -104,6 +177,30 @@ struct CurvePoint {
     rays: u64,
     form_factors: u64,
     unshot: f64,
+    /// After a level of refinement.
+    elements: Option<usize>,
+    error: Option<f64>,
+    largest: Option<f64>,
+    points: Option<f64>,
+}
+
+impl CurvePoint {
+    fn of(point: &pipeline::CurvePoint) -> Self {
+        let known = |x: f64| x.is_finite().then_some(x);
+        let statement = point.level.and_then(|(_, statement)| statement);
+        let of = |f: fn(&Statement) -> f64| statement.as_ref().map(f).and_then(known);
+        Self {
+            seconds: point.seconds,
+            shots: point.work.shots,
+            rays: point.work.rays,
+            form_factors: point.work.form_factors,
+            unshot: point.work.unshot,
+            elements: point.level.map(|(elements, _)| elements),
+            error: of(|s| s.triangles.e1.total()),
+            largest: of(|s| s.triangles.einf.total()),
+            points: of(|s| s.points.e1.total()),
+        }
+    }
 }
 
 impl SceneFacts {
@@ -142,12 +239,21 @@ pub(crate) fn reason(reason: StopReason) -> &'static str {
     }
 }
 
+/// How the end of refinement is called in reports.
+fn reached(reached: Reached) -> &'static str {
+    match reached {
+        Reached::Error => "error",
+        Reached::Elements => "elements",
+        Reached::ElementLimit | Reached::Stopped => "limit",
+        Reached::Shooting => "shooting",
+    }
+}
+
 /// What a run of `solve` knows at its end.
 pub(crate) struct Run<'a> {
     pub(crate) file: &'a str,
     pub(crate) imported: &'a Imported,
-    pub(crate) read: &'a Read,
-    pub(crate) converge: f64,
+    pub(crate) settings: &'a Solve,
     pub(crate) prepared: &'a Prepared,
     pub(crate) solved: &'a Solved,
     pub(crate) read_seconds: f64,
@@ -158,16 +264,11 @@ pub(crate) struct Run<'a> {
 impl Report {
     /// Gathers the report of a run.
     pub(crate) fn of(run: Run) -> Self {
-        let Run { prepared, solved, read, .. } = run;
-        let ledger = &solved.ledger;
+        let Run { prepared, solved, settings, .. } = run;
+        let (read, limits, refined) = (&settings.read, &settings.limits, &solved.refined);
+        let (ledger, work) = (&refined.ledger, &refined.total_work);
         let channels = |Rgb(c): Rgb| c;
-        let point = |(seconds, step): &(f64, StepReport)| CurvePoint {
-            seconds: *seconds,
-            shots: step.shots,
-            rays: step.rays,
-            form_factors: step.form_factors,
-            unshot: step.unshot,
-        };
+        let error = |s: &Statement| ErrorFacts::of(s, refined.closed_rows);
         Self {
             schema: SCHEMA,
             program: "radiosity",
@@ -175,7 +276,18 @@ impl Report {
             scene: SceneFacts::of(run.file, run.imported),
             warnings: run.imported.diagnostics.iter().map(ToString::to_string).collect(),
             settings: Settings {
-                converge: run.converge,
+                error: match settings.goal {
+                    Goal::Error(target) => Some(target),
+                    Goal::Mesh { .. } => None,
+                },
+                converge: match settings.goal {
+                    Goal::Error(_) => None,
+                    Goal::Mesh { converge, .. } => Some(converge),
+                },
+                elements: settings.work.elements,
+                max_seconds: limits.time.map(|t| t.as_secs_f64()),
+                max_elements: limits.elements,
+                max_bytes: limits.memory,
                 exchange: match read.exchange {
                     Exchange::OneSided => "one-sided",
                     Exchange::Paired => "paired",
@@ -185,21 +297,25 @@ impl Report {
                 reflect: read.options.tri_reflect,
             },
             mesh: MeshFacts {
-                elements: prepared.mesh.elements().len(),
-                patches: prepared.mesh.patches().len(),
-                receiver_points: prepared.mesh.points().len(),
+                elements: refined.mesh.elements().len(),
+                patches: refined.mesh.patches().len(),
+                receiver_points: refined.mesh.points().len(),
             },
             occluder: OccluderFacts {
                 kind: prepared.occluder_name,
                 bytes: prepared.occluder_bytes,
             },
             solve: SolveFacts {
-                stopped: reason(solved.reason),
-                unshot: solved.work.unshot,
-                shots: solved.work.shots,
-                rays: solved.work.rays,
-                form_factors: solved.work.form_factors,
+                reached: reached(refined.reached),
+                limit: solved.limit,
+                stopped: reason(refined.reason),
+                unshot: work.unshot,
+                shots: work.shots,
+                rays: work.rays,
+                form_factors: work.form_factors,
+                ambient_corrections: refined.corrected,
             },
+            error: refined.statement.as_ref().map(error),
             energy: Energy {
                 emitted: channels(ledger.emitted),
                 absorbed: channels(ledger.absorbed),
@@ -211,13 +327,11 @@ impl Report {
             },
             seconds: Seconds {
                 read: run.read_seconds,
-                mesh: prepared.mesh_seconds,
                 occluder: prepared.occluder_seconds,
-                census: prepared.census_seconds,
-                shooting: solved.seconds,
+                solve: solved.seconds,
                 output: run.output_seconds,
             },
-            curve: solved.curve.iter().map(point).collect(),
+            curve: solved.curve.iter().map(CurvePoint::of).collect(),
             outputs: run.outputs,
         }
     }

@@ -2,6 +2,8 @@
 
 use std::io::Write;
 
+use radiosity_core::{LevelReport, Parts, Statement};
+
 use crate::failure::Failure;
 
 /// Says something on stderr. A reader that went away is no reason to fail.
@@ -17,6 +19,53 @@ pub(crate) fn error(message: &str) {
 /// Says what should be looked at.
 pub(crate) fn warning(message: &str) {
     say(&format!("radiosity: warning: {message}"));
+}
+
+/// Says what a level of refinement reached.
+pub(crate) fn level(report: &LevelReport, elapsed: f64) {
+    let error = report.statement.map(|s| s.triangles.e1.total()).filter(|e| e.is_finite());
+    say(&format!(
+        "{} elements: {}, {}",
+        count(report.elements as u64),
+        error.map_or("no statement from one mesh".into(), |e| format!("error {}", percent(e))),
+        seconds(elapsed)
+    ));
+}
+
+/// Says how wrong the light may be.
+pub(crate) fn statement(statement: Option<&Statement>) {
+    let Some(statement) = statement else { return };
+    let parts = |p: &Parts| {
+        format!(
+            "{} = iteration {} + form factors {} + mesh {}",
+            share(p.total()),
+            share(p.iteration),
+            share(p.form_factor),
+            share(p.mesh)
+        )
+    };
+    let (triangles, points) = (&statement.triangles, &statement.points);
+    say(&format!("error: at most {} of the triangles' exitance (E1)", parts(&triangles.e1)));
+    say(&format!(
+        "       largest {} of the mean on one triangle; at single places {}, largest {}",
+        share(triangles.einf.total()),
+        share(points.e1.total()),
+        share(points.einf.total())
+    ));
+    if let Some(probes) = &statement.probes {
+        say(&format!("       at the probes {}", parts(&probes.e1)));
+    }
+    if triangles.e1.mesh.is_infinite() {
+        warning(
+            "one mesh says nothing of its own error: ask for --elements of at least one and a \
+             half times the scene's triangles, or for --error",
+        );
+    }
+}
+
+/// A share that may be unknown.
+fn share(value: f64) -> String {
+    if value.is_finite() { percent(value) } else { "unknown".into() }
 }
 
 /// Prints a line of a command's result on stdout. A reader that went away has had enough;

@@ -1,16 +1,23 @@
 //! The command line resolved: defaults filled in, contradictions refused. Pure.
 
+mod form_factors;
+
 use std::path::PathBuf;
+use std::time::Duration;
 
 use output::{Exposure, Format};
-use radiosity_core::{Exchange, MeshConfig};
+use radiosity_core::{Asked, Exchange, MeshConfig};
 use scene_import::SidesRule;
 
 use crate::args::{AccelArg, PictureArgs, ReadArgs, SidesArg, SolveArgs, WorkArgs};
 use crate::failure::Failure;
+pub(crate) use form_factors::{FormFactors, TableTarget, form_factors};
 
 /// Elements asked for when the command line does not say.
 const DEFAULT_ELEMENTS: usize = 10_000;
+
+/// Ids are 32 bits wide, and a forest has up to two nodes per element.
+const MOST_ELEMENTS: usize = 1 << 30;
 
 /// What `solve` will do.
 #[derive(Clone, Debug)]
@@ -19,10 +26,74 @@ pub(crate) struct Solve {
     pub(crate) scene: Option<PathBuf>,
     pub(crate) outputs: Vec<Target>,
     pub(crate) report: Option<PathBuf>,
-    pub(crate) converge: f64,
+    pub(crate) probe: Option<PathBuf>,
+    pub(crate) goal: Goal,
+    pub(crate) limits: Limits,
     pub(crate) work: Work,
     pub(crate) read: Read,
     pub(crate) picture: PictureArgs,
+}
+
+/// What `solve` works towards.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Goal {
+    /// Until the stated error is at most this.
+    Error(f64),
+    /// On one mesh, until this share of the power is unshot; `stated` with coarser meshes
+    /// beside it, to say how wrong it is.
+    Mesh { elements: Option<usize>, converge: f64, stated: bool },
+}
+
+/// What ends the work before its goal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Limits {
+    pub(crate) time: Option<Duration>,
+    pub(crate) elements: Option<usize>,
+    pub(crate) memory: Option<u64>,
+}
+
+/// Stated error asked for when the command line does not say.
+const DEFAULT_ERROR: f64 = 0.01;
+
+/// Unshot share on a fixed mesh when the command line does not say.
+const DEFAULT_CONVERGE: f64 = 1e-3;
+
+/// Peak bytes per element, scene and splitting included: 1.47 GB for 2.0 M elements of a
+/// million triangles (maximum resident size of `solve`).
+pub(crate) const BYTES_PER_ELEMENT: u64 = 750;
+
+impl Goal {
+    /// In the solver's terms, for a scene of so many triangles.
+    pub(crate) fn asked(&self, triangles: usize) -> Asked {
+        match *self {
+            Self::Error(target) => Asked::Error(target),
+            Self::Mesh { elements, stated, .. } => {
+                let elements = elements.unwrap_or(DEFAULT_ELEMENTS.max(2 * triangles));
+                if stated { Asked::Elements(elements) } else { Asked::Unstated(elements) }
+            }
+        }
+    }
+
+    /// The unshot share at which shooting stops; refinement sets its own.
+    pub(crate) fn converge(&self) -> f64 {
+        match *self {
+            Self::Error(_) => DEFAULT_CONVERGE,
+            Self::Mesh { converge, .. } => converge,
+        }
+    }
+}
+
+impl Limits {
+    /// The most elements that both limits allow, and which of them is the tighter.
+    pub(crate) fn most_elements(&self) -> (usize, &'static str) {
+        let by_memory = self.memory.map(|bytes| (bytes / BYTES_PER_ELEMENT).max(1) as usize);
+        match (self.elements, by_memory) {
+            (Some(n), Some(m)) if m < n => (m, "--max-memory"),
+            (Some(n), _) => (n, "--max-elements"),
+            (None, Some(m)) => (m.min(MOST_ELEMENTS), "--max-memory"),
+            (None, None) => (MOST_ELEMENTS, "the widest mesh there is"),
+        }
+    }
 }
 
 /// Where a solution goes.
@@ -32,6 +103,8 @@ pub(crate) enum Target {
     Stdout,
     /// A file, its format known to be one of ours.
     File(PathBuf),
+    /// A table of the probes.
+    Probes(PathBuf),
 }
 
 /// How finely, with what, on how many threads.
@@ -63,11 +136,54 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
     if outputs.iter().filter(|t| **t == Target::Stdout).count() > 1 {
         return Err(Failure::Usage("-o -: stdout takes one table, and is named twice".into()));
     }
+    let wants_probes = outputs.iter().any(|t| matches!(t, Target::Probes(_)));
+    match (&args.probe, wants_probes) {
+        (Some(_), false) => {
+            let message = "--probe: name where the exitance goes, as -o places.probe.csv";
+            return Err(Failure::Usage(message.into()));
+        }
+        (None, true) => {
+            let message = "-o NAME.probe.csv: name the places with --probe POINTS.csv";
+            return Err(Failure::Usage(message.into()));
+        }
+        _ => {}
+    }
+    let fixed = args.work.elements.is_some() || args.converge.is_some();
+    if args.no_statement && !fixed {
+        let message = "--no-statement: refining needs the statement; fix the work with --elements";
+        return Err(Failure::Usage(message.into()));
+    }
+    if fixed && (args.max_elements.is_some() || args.max_memory.is_some()) {
+        let message = "--max-elements and --max-memory limit refining; --elements and --converge \
+                       fix the mesh";
+        return Err(Failure::Usage(message.into()));
+    }
+    if args.error == Some(0.0) {
+        return Err(Failure::Usage("--error: expected more than 0, such as 1%".into()));
+    }
+    if args.max_elements.is_some_and(|n| !(1..=MOST_ELEMENTS).contains(&n)) {
+        return Err(Failure::Usage(format!("--max-elements: expected 1 to {MOST_ELEMENTS}")));
+    }
+    let goal = if fixed {
+        Goal::Mesh {
+            elements: args.work.elements,
+            converge: args.converge.unwrap_or(DEFAULT_CONVERGE),
+            stated: !args.no_statement,
+        }
+    } else {
+        Goal::Error(args.error.unwrap_or(DEFAULT_ERROR))
+    };
     Ok(Solve {
         scene: args.scene,
         outputs,
         report: args.report,
-        converge: args.converge,
+        probe: args.probe,
+        goal,
+        limits: Limits {
+            time: args.max_time,
+            elements: args.max_elements,
+            memory: args.max_memory,
+        },
         work: work(&args.work)?,
         read: read(&args.read)?,
         picture: args.picture,
@@ -76,16 +192,19 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
 
 /// Resolves the flags that say how much work is done.
 pub(crate) fn work(args: &WorkArgs) -> Result<Work, Failure> {
-    // Ids are 32 bits wide, and a forest has up to two nodes per element.
-    const MOST: usize = 1 << 30;
-    if args.elements.is_some_and(|n| !(1..=MOST).contains(&n)) {
-        return Err(Failure::Usage(format!("--elements: expected 1 to {MOST}")));
+    if args.elements.is_some_and(|n| !(1..=MOST_ELEMENTS).contains(&n)) {
+        return Err(Failure::Usage(format!("--elements: expected 1 to {MOST_ELEMENTS}")));
     }
-    const MOST_THREADS: usize = 4096;
-    if args.threads > MOST_THREADS {
-        return Err(Failure::Usage(format!("--threads: expected at most {MOST_THREADS}")));
+    Ok(Work { elements: args.elements, accel: args.accel, threads: threads(args.threads)? })
+}
+
+/// Resolves the number of threads.
+fn threads(threads: usize) -> Result<usize, Failure> {
+    const MOST: usize = 4096;
+    if threads > MOST {
+        return Err(Failure::Usage(format!("--threads: expected at most {MOST}")));
     }
-    Ok(Work { elements: args.elements, accel: args.accel, threads: args.threads })
+    Ok(threads)
 }
 
 impl Work {
@@ -117,6 +236,9 @@ pub(crate) fn read(args: &ReadArgs) -> Result<Read, Failure> {
 fn target(path: PathBuf) -> Result<Target, Failure> {
     if path.as_os_str() == "-" {
         return Ok(Target::Stdout);
+    }
+    if path.to_string_lossy().to_ascii_lowercase().ends_with(".probe.csv") {
+        return Ok(Target::Probes(path));
     }
     Format::from_path(&path).map_err(|e| Failure::Usage(format!("-o {}: {e}", path.display())))?;
     Ok(Target::File(path))
@@ -166,9 +288,16 @@ mod tests {
         assert_eq!(s.outputs, [Target::File("a.csv".into()), Target::Stdout]);
         assert_eq!(s.work.mesh(12).elements, 10_000);
         assert_eq!(s.work.mesh(9_506).elements, 19_012);
-        assert_eq!(s.converge, 1e-3);
+        assert_eq!(s.goal, Goal::Error(0.01));
         let s = resolve("-o a.csv --elements 5 --converge 2%").unwrap();
-        assert_eq!((s.scene, s.work.elements, s.converge), (None, Some(5), 0.02));
+        assert_eq!((s.scene, s.work.elements, s.goal.converge()), (None, Some(5), 0.02));
+        assert_eq!(s.goal.asked(12), Asked::Elements(5));
+        let s = resolve("-o a.csv --converge 1% --no-statement").unwrap();
+        assert_eq!(s.goal.asked(12), Asked::Unstated(10_000));
+        let s = resolve("-o a.csv --max-elements 1000 --max-memory 1MB").unwrap();
+        assert_eq!(s.limits.most_elements(), (1000, "--max-elements"));
+        let s = resolve("-o a.csv --max-elements 2000 --max-memory 750kB").unwrap();
+        assert_eq!(s.limits.most_elements(), (1000, "--max-memory"));
     }
 
     #[test]
@@ -191,6 +320,15 @@ mod tests {
             "-o a.csv --threads 100000",
             "-o a.csv --exposure inf",
             "-o a.csv --converge 2",
+            "-o a.csv --error 0",
+            "-o a.csv --error 1% --elements 100",
+            "-o a.csv --error 1% --converge 1%",
+            "-o a.csv --no-statement",
+            "-o a.csv --elements 100 --max-elements 100",
+            "-o a.csv --max-elements 0",
+            "-o a.csv --max-time 0",
+            "-o a.csv --probe points.csv",
+            "-o a.probe.csv",
         ] {
             assert!(matches!(resolve(line), Err(Failure::Usage(_))), "{line}");
         }

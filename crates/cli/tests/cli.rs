@@ -88,7 +88,7 @@ fn solves_into_every_format_with_a_report() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 7, "nothing is left beside");
     let report = std::fs::read_to_string(folder.path().join("a.json")).unwrap();
     let report: serde_json::Value = serde_json::from_str(&report).unwrap();
-    assert_eq!(report["schema"], 1);
+    assert_eq!(report["schema"], 2);
     assert_eq!(report["scene"]["triangles"], 12);
     assert_eq!(report["solve"]["stopped"], "converged");
     assert!(report["energy"]["imbalance"].as_f64().unwrap() < 1e-12);

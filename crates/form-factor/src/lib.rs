@@ -1,10 +1,33 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod between;
+mod clip;
+mod contour;
+mod corners;
+mod cover;
+mod edge_pair;
+mod estimate;
+mod gauss;
 mod kernel;
+mod kink;
 mod lambert;
+mod mean;
+mod merge;
+mod occluded;
+mod occluders;
+mod pair;
+mod polygon;
+mod product;
 mod rule;
+mod shadow;
+mod shaft;
 
+pub use between::{REFERENCE, between};
+pub use estimate::Estimate;
 pub use kernel::{centroid_kernel, three_point_kernel};
 pub use lambert::{Clipped, lambert};
+pub use occluded::{FLOOR, MOST_POINTS, between_occluded};
+pub use occluders::Occluders;
+pub use polygon::{FLAT, Polygon};
 pub use rule::Rule;

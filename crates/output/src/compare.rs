@@ -7,6 +7,9 @@ use crate::{Error, ErrorKind};
 /// written with six digits or so, while a wrong row is off by far more.
 pub const AREA_TOLERANCE: f64 = 1e-4;
 
+/// The difference that two writings of one barycentric coordinate may show.
+pub const PLACE_TOLERANCE: f64 = 1e-5;
+
 /// Error measures of a solution against a reference B*, per channel, over the rows that
 /// neither side marks as emitting or ambiguous. A is the reference's area.
 ///
@@ -50,7 +53,8 @@ impl Comparison {
 /// Compares a solution with a reference, which comes second.
 ///
 /// # Errors
-/// Different row counts, a row of another triangle, areas that differ by more than
+/// Different row counts, a row of another triangle or of another place on it (by more than
+/// [`PLACE_TOLERANCE`]), areas that differ by more than
 /// [`AREA_TOLERANCE`], a value that is not finite, or no row that both sides count.
 ///
 /// # Examples
@@ -93,6 +97,12 @@ fn pair<'a>(ours: &'a [Row], reference: &'a [Row]) -> Result<Vec<(&'a Row, &'a R
         if o.triangle != r.triangle {
             let (ours, reference) = (o.triangle, r.triangle);
             return Err(Error::new(ErrorKind::RowTriangle { row, ours, reference }));
+        }
+        let apart = |(a, b): (&f64, &f64)| (a - b).abs() > PLACE_TOLERANCE;
+        if let (Some(ours), Some(reference)) = (o.uv, r.uv)
+            && ours.iter().zip(&reference).any(apart)
+        {
+            return Err(Error::new(ErrorKind::RowPlace { row, ours, reference }));
         }
         let good = |row: &Row| row.area >= 0.0 && row.area.is_finite() && row.exitance.is_finite();
         if !good(o) || !good(r) || !r.se.is_none_or(scene::Rgb::is_finite) {

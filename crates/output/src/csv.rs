@@ -1,8 +1,10 @@
 //! One row per input triangle: the form in which solutions are compared.
 
+mod places;
 mod read;
 mod write;
 
+pub use places::{Place, read_places, write_places};
 pub use read::read;
 pub use write::{rows, write};
 
@@ -13,6 +15,8 @@ use scene::Rgb;
 pub struct Row {
     /// The input triangle, counted from 0 in file order.
     pub triangle: u32,
+    /// Where on the triangle a b c, if the row speaks of a place: a + u (b − a) + v (c − a).
+    pub uv: Option<[f64; 2]>,
     /// Area, in squared scene units.
     pub area: f64,
     /// Area mean of the front's exitance.

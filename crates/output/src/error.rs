@@ -69,6 +69,15 @@ pub enum ErrorKind {
         /// The triangle of the reference.
         reference: u32,
     },
+    /// Rows that should speak of the same place on a triangle do not.
+    RowPlace {
+        /// The row, from 0.
+        row: usize,
+        /// u and v of the compared solution.
+        ours: [f64; 2],
+        /// u and v of the reference.
+        reference: [f64; 2],
+    },
     /// Rows, counted from 0, whose triangles differ in area.
     RowArea {
         /// The row, from 0.
@@ -178,6 +187,9 @@ impl fmt::Display for ErrorKind {
             }
             Self::RowTriangle { row, ours, reference } => {
                 write!(f, "row {row}: triangle {ours} against {reference} in the reference")
+            }
+            Self::RowPlace { row, ours, reference } => {
+                write!(f, "row {row}: u, v {ours:?} against {reference:?} in the reference")
             }
             Self::RowArea { row, ours, reference } => {
                 write!(f, "row {row}: area {ours} against {reference} in the reference")

@@ -9,6 +9,7 @@ mod error;
 mod file;
 mod format;
 mod glb;
+pub mod matrix;
 mod options;
 pub mod picture;
 mod ply;

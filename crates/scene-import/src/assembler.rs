@@ -103,7 +103,6 @@ impl<'a> Assembler<'a> {
     }
 
     /// A new group, even where another has the same name.
-    #[cfg(feature = "gltf")]
     pub(crate) fn new_group(&mut self, name: &str) -> GroupId {
         self.builder.group(name)
     }

@@ -69,6 +69,11 @@ pub enum DiagnosticKind {
         /// Which part, in words.
         what: String,
     },
+    /// A surface that breaks a rule of its format; it is read as it stands.
+    BrokenRule {
+        /// What is wrong, in words.
+        what: String,
+    },
     /// A reflectance that a .tri file cannot hold.
     ReflectanceChanged {
         /// The scene's.
@@ -127,6 +132,7 @@ impl fmt::Display for DiagnosticKind {
                 write!(f, "a face of {corners} corners makes no triangle")
             }
             Self::Ignored { what } => write!(f, "left out: {what}"),
+            Self::BrokenRule { what } => f.write_str(what),
             Self::ReflectanceChanged { from: Rgb(from), to: Rgb(to) } => {
                 write!(f, "reflectance {from:?} becomes {to:?}, beyond which .tri cannot go")
             }

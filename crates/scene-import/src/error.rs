@@ -22,7 +22,7 @@ pub struct Error {
 pub enum ErrorKind {
     /// A file cannot be read.
     Io,
-    /// The extension is none of tri, obj, gltf, glb.
+    /// The extension is none of tri, vs3, obj, gltf, glb.
     UnknownFormat,
     /// This build lacks the feature that reads the format.
     FeatureOff,

@@ -67,6 +67,8 @@ impl fmt::Display for Summary {
 pub enum Format {
     /// The triangle list `.tri`.
     Tri,
+    /// View3D's vertices and surfaces, `.vs3`.
+    Vs3,
     /// Wavefront OBJ with MTL.
     Obj,
     /// glTF 2.0 as JSON.
@@ -79,6 +81,7 @@ impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Tri => ".tri",
+            Self::Vs3 => "View3D",
             Self::Obj => "OBJ",
             Self::Gltf => "glTF",
             Self::Glb => "GLB",

@@ -19,6 +19,7 @@ mod texture;
 mod tri;
 mod tri_records;
 mod units;
+mod vs3;
 
 pub use diagnostic::{Diagnostic, DiagnosticKind};
 pub use error::{Error, ErrorKind};

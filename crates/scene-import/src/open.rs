@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::{Error, ErrorKind, Format, Imported, Options, tri};
+use crate::{Error, ErrorKind, Format, Imported, Options, tri, vs3};
 
 /// What every format's reader is given.
 pub(crate) struct Source<'a> {
@@ -14,13 +14,13 @@ pub(crate) struct Source<'a> {
     /// Where the files lie that it names; `None` if it must stand alone.
     #[cfg_attr(
         not(any(feature = "obj", feature = "gltf")),
-        expect(dead_code, reason = ".tri names no files")
+        expect(dead_code, reason = ".tri and .vs3 name no files")
     )]
     pub(crate) folder: Option<&'a Path>,
 }
 
-/// Opens a scene file; its extension (`tri`, `obj`, `gltf` or `glb`, in any case) tells
-/// the format. Files that it names are looked for beside it.
+/// Opens a scene file; its extension (`tri`, `vs3`, `obj`, `gltf` or `glb`, in any case)
+/// tells the format. Files that it names are looked for beside it.
 ///
 /// # Errors
 /// If the file cannot be read, is not what its extension says, or needs a feature that
@@ -50,13 +50,14 @@ fn format_of(name: &str) -> Result<Format, Error> {
     let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy();
     match extension.to_ascii_lowercase().as_str() {
         "tri" => Ok(Format::Tri),
+        "vs3" => Ok(Format::Vs3),
         "obj" => Ok(Format::Obj),
         "gltf" => Ok(Format::Gltf),
         "glb" => Ok(Format::Glb),
         _ => Err(Error::new(
             ErrorKind::UnknownFormat,
             name,
-            "expected a file that ends in .tri, .obj, .gltf or .glb",
+            "expected a file that ends in .tri, .vs3, .obj, .gltf or .glb",
         )),
     }
 }
@@ -64,6 +65,7 @@ fn format_of(name: &str) -> Result<Format, Error> {
 fn read(format: Format, source: &Source<'_>, options: &Options) -> Result<Imported, Error> {
     match format {
         Format::Tri => tri::read(source, options),
+        Format::Vs3 => vs3::read(source, options),
         #[cfg(feature = "obj")]
         Format::Obj => crate::obj::read(source, options),
         #[cfg(feature = "gltf")]

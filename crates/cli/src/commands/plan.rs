@@ -1,5 +1,8 @@
 //! `radiosity plan`: what a scene file holds, what looks wrong, and what a solve would use.
 
+use std::time::Duration;
+
+use radiosity_core::{Census, Mesh};
 use scene::{Rgb, Scene, Sides};
 use scene_import::Imported;
 
@@ -9,11 +12,7 @@ use crate::failure::Failure;
 use crate::pipeline::{self, Prepared};
 use crate::report::total_area;
 use crate::screen::{count, percent, result, seconds};
-use crate::settings;
-
-/// Peak bytes per element, scene and splitting included: 1.47 GB for 2.0 M elements of a
-/// million triangles (maximum resident size of `solve`).
-const BYTES_PER_ELEMENT: u64 = 750;
+use crate::settings::{self, BYTES_PER_ELEMENT};
 
 /// Reads the scene, builds what a solve would use, and prints both.
 pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
@@ -23,9 +22,11 @@ pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
     solve::check_paired(&imported.scene, &read)?;
     result(&format!("{file}: {}", imported.summary))?;
     say_scene(&imported)?;
-    let prepared = pipeline::prepare(&imported.scene, &work, &read)?;
-    solve::warn_of_coarseness(&imported.scene, &prepared);
-    say_plan(&imported.scene, &prepared)
+    let prepared = pipeline::prepare(&imported.scene, &work)?;
+    let config = work.mesh(imported.scene.triangles().len());
+    let (mesh, census, time) = pipeline::mesh(&imported.scene, &prepared, &config, &read);
+    solve::warn_of_coarseness(&imported.scene, &mesh);
+    say_plan(&imported.scene, &prepared, &mesh, &census, time)
 }
 
 fn say_scene(imported: &Imported) -> Result<(), Failure> {
@@ -72,8 +73,13 @@ fn surfaces(scene: &Scene) -> String {
     format!("reflectance {low:.4} to {high:.4}, {both} two-sided triangles")
 }
 
-fn say_plan(scene: &Scene, prepared: &Prepared) -> Result<(), Failure> {
-    let mesh = &prepared.mesh;
+fn say_plan(
+    scene: &Scene,
+    prepared: &Prepared,
+    mesh: &Mesh,
+    census: &Census,
+    time: Duration,
+) -> Result<(), Failure> {
     let elements = mesh.elements().len() as u64;
     result(&format!(
         "mesh      {} elements in {} patches, {} receiver points, about {} MB ({})",
@@ -81,7 +87,7 @@ fn say_plan(scene: &Scene, prepared: &Prepared) -> Result<(), Failure> {
         count(mesh.patches().len() as u64),
         count(mesh.points().len() as u64),
         count((elements * BYTES_PER_ELEMENT).div_ceil(1_000_000)),
-        seconds(prepared.mesh_seconds)
+        seconds(time.as_secs_f64())
     ))?;
     result(&format!(
         "occluder  {} over {} triangles, {} kB ({}); input triangles block, not elements",
@@ -90,7 +96,7 @@ fn say_plan(scene: &Scene, prepared: &Prepared) -> Result<(), Failure> {
         count((prepared.occluder_bytes as u64).div_ceil(1000)),
         seconds(prepared.occluder_seconds)
     ))?;
-    let (escapes, backs) = mean_fate(prepared);
+    let (escapes, backs) = mean_fate(mesh, census);
     result(&format!(
         "openness  {} of the directions from lit surfaces leave the scene, {} meet a back",
         percent(escapes),
@@ -106,10 +112,9 @@ fn say_plan(scene: &Scene, prepared: &Prepared) -> Result<(), Failure> {
 }
 
 /// Area means over the patches of the shares that escape and that meet backs.
-fn mean_fate(prepared: &Prepared) -> (f64, f64) {
-    let mesh = &prepared.mesh;
+fn mean_fate(mesh: &Mesh, census: &Census) -> (f64, f64) {
     let (mut area, mut escapes, mut backs) = (0.0, 0.0, 0.0);
-    for (patch, fate) in mesh.patches().iter().zip(prepared.census.fates()) {
+    for (patch, fate) in mesh.patches().iter().zip(census.fates()) {
         let range = patch.elements.start as usize..patch.elements.end as usize;
         let a: f64 = mesh.elements()[range].iter().map(|e| e.area).sum();
         area += a;

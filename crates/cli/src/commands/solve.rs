@@ -1,11 +1,13 @@
 //! `radiosity solve`: light a scene and write it out.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use output::Format;
-use radiosity_core::StopReason;
-use scene::Scene;
+use output::csv::Place;
+use radiosity_core::{Mesh, Probe, StopReason};
+use scene::{Scene, TriangleId};
 use scene_import::Imported;
 
 use crate::args::{AccelArg, PictureArgs};
@@ -35,7 +37,9 @@ pub(crate) fn bundled() -> Result<(), Failure> {
         scene: None,
         outputs: BUNDLED_OUTPUTS.map(|p| Target::File(p.into())).into(),
         report: Some(BUNDLED_REPORT.into()),
-        converge: 1e-3,
+        probe: None,
+        goal: settings::Goal::Error(0.01),
+        limits: settings::Limits::default(),
         work: Work { elements: None, accel: AccelArg::Auto, threads: 0 },
         read: Read {
             options: scene_import::Options::default(),
@@ -48,7 +52,7 @@ pub(crate) fn bundled() -> Result<(), Failure> {
 /// Reads, solves, writes, and says what happened.
 pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let paths = settings.outputs.iter().filter_map(|t| match t {
-        Target::File(path) => Some(path),
+        Target::File(path) | Target::Probes(path) => Some(path),
         Target::Stdout => None,
     });
     let paths: Vec<&Path> = paths.chain(&settings.report).map(PathBuf::as_path).collect();
@@ -64,24 +68,27 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let options = settings::output_options(&settings.picture, &imported.scene)?;
     check_paired(&imported.scene, &settings.read)?;
 
-    let prepared = pipeline::prepare(&imported.scene, &settings.work, &settings.read)?;
-    say_prepared(&prepared);
-    warn_of_coarseness(&imported.scene, &prepared);
-    let solved = pipeline::shoot(&prepared, &settings.read, settings.converge)?;
-    say_solved(&solved);
+    let places = match &settings.probe {
+        Some(path) => places(path, &imported.scene)?,
+        None => Vec::new(),
+    };
+    let prepared = pipeline::prepare(&imported.scene, &settings.work)?;
+    let probes: Vec<Probe> = places.iter().map(probe).collect();
+    let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes)?;
+    warn_of_coarseness(&imported.scene, &solved.refined.mesh);
+    say_solved(&prepared, &solved);
 
     let clock = Instant::now();
     let mut outputs = Vec::new();
     for target in &settings.outputs {
-        outputs.push(write(target, &imported.scene, &solved, &options)?);
+        outputs.push(write(target, &imported.scene, &solved, &places, &options)?);
     }
     let output_seconds = clock.elapsed().as_secs_f64();
     if let Some(path) = &settings.report {
         let run = Run {
             file: &file,
             imported: &imported,
-            read: &settings.read,
-            converge: settings.converge,
+            settings,
             prepared: &prepared,
             solved: &solved,
             read_seconds,
@@ -91,26 +98,52 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         Report::of(run).write(path)?;
         outputs.push(path.display().to_string());
     }
-    say_times(&prepared, &solved, read_seconds, output_seconds);
+    say(&format!(
+        "time: read {}, occluder {}, solve {}, output {}",
+        seconds(read_seconds),
+        seconds(prepared.occluder_seconds),
+        seconds(solved.seconds),
+        seconds(output_seconds)
+    ));
     say(&format!("written: {}", outputs.join(", ")));
     Ok(())
 }
 
+/// Reads the places to report the exitance at.
+fn places(path: &Path, scene: &Scene) -> Result<Vec<Place>, Failure> {
+    let file = File::open(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
+    let places = output::csv::read_places(file).map_err(|e| e.at(path))?;
+    let triangles = scene.triangles().len();
+    // The header is the first line.
+    match places.iter().zip(2..).find(|(place, _)| place.triangle as usize >= triangles) {
+        None => Ok(places),
+        Some((place, line)) => Err(Failure::Failed(format!(
+            "{}:{line}: triangle {}, expected one of the scene's {triangles}, counted from 0",
+            path.display(),
+            place.triangle
+        ))),
+    }
+}
+
+fn probe(place: &Place) -> Probe {
+    Probe { triangle: TriangleId(place.triangle), uv: place.uv, area: place.area }
+}
+
 /// Segments keep off surfaces by a length that grows with the whole scene: one triangle far
 /// away can make it larger than the rest of the scene.
-pub(crate) fn warn_of_coarseness(scene: &Scene, prepared: &Prepared) {
+pub(crate) fn warn_of_coarseness(scene: &Scene, mesh: &Mesh) {
     // A twentieth of a typical triangle: its shadows and contacts begin to go wrong.
     const WORTH_SAYING: f64 = 0.05;
     let mut areas: Vec<f64> = scene.ids().map(|id| scene.area(id)).filter(|a| *a > 0.0).collect();
     areas.sort_by(f64::total_cmp);
     let Some(median) = areas.get(areas.len() / 2) else { return };
-    let resolution = prepared.mesh.resolution();
+    let resolution = mesh.resolution();
     if resolution > WORTH_SAYING * median.sqrt() {
         screen::warning(&format!(
             "the scene is {:.1e} across and its triangles are {:.1e}: what is nearer to a surface \
              than {resolution:.1e} is not seen from it, so the light will be wrong; take out \
              what lies far away",
-            prepared.mesh.extent(),
+            mesh.extent(),
             median.sqrt()
         ));
     }
@@ -145,24 +178,32 @@ fn write(
     target: &Target,
     scene: &Scene,
     solved: &Solved,
+    places: &[Place],
     options: &output::Options,
 ) -> Result<String, Failure> {
+    let solution = &solved.refined.solution;
     match target {
         Target::File(path) => {
-            output::write_file(path, scene, &solved.solution, options)?;
+            output::write_file(path, scene, solution, options)?;
+            Ok(path.display().to_string())
+        }
+        Target::Probes(path) => {
+            let light = &solved.refined.probes;
+            output::replace_file(path, |out| output::csv::write_places(out, places, light))?;
             Ok(path.display().to_string())
         }
         Target::Stdout => {
             let mut out = std::io::BufWriter::new(std::io::stdout().lock());
-            output::write(Format::Csv, &mut out, scene, &solved.solution, options)?;
+            output::write(Format::Csv, &mut out, scene, solution, options)?;
             std::io::Write::flush(&mut out).map_err(|e| Failure::Failed(format!("stdout: {e}")))?;
             Ok("stdout".into())
         }
     }
 }
 
-fn say_prepared(prepared: &Prepared) {
-    let mesh = &prepared.mesh;
+fn say_solved(prepared: &Prepared, solved: &Solved) {
+    let refined = &solved.refined;
+    let (mesh, work, ledger) = (&refined.mesh, &refined.total_work, &refined.ledger);
     say(&format!(
         "{} elements in {} patches, {} receiver points; occluders: {}; {} {}",
         count(mesh.elements().len() as u64),
@@ -172,21 +213,27 @@ fn say_prepared(prepared: &Prepared) {
         prepared.threads(),
         if prepared.threads() == 1 { "thread" } else { "threads" },
     ));
-}
-
-fn say_solved(solved: &Solved) {
-    let (work, ledger) = (&solved.work, &solved.ledger);
-    if solved.reason == StopReason::NoLight {
+    if refined.reason == StopReason::NoLight {
         screen::warning("nothing emits: the scene stays dark");
         return;
     }
     say(&format!(
-        "{} shots, {} segments, {} form factors; {} of the emitted power unshot",
+        "{} shots, {} segments, {} form factors; {} of the emitted power unshot{}",
         count(work.shots),
         count(work.rays),
         count(work.form_factors),
-        percent(work.unshot)
+        percent(work.unshot),
+        if refined.corrected { "; ambient corrections" } else { "" }
     ));
+    screen::statement(refined.statement.as_ref());
+    if let Some(limit) = solved.limit {
+        screen::warning(&format!(
+            "{limit} ended the work: the error asked for is not reached, the one stated is"
+        ));
+    }
+    if let Some([least, most]) = refined.closed_rows {
+        say(&format!("rows: form factors summed to {least:.6} to {most:.6}, closed to 1"));
+    }
     say(&format!(
         "energy: absorbed {}, escaped {} (form factors: {}), wrong side {}, unshot {}; sum off by {:.0e}",
         percent(ledger.share(ledger.absorbed)),
@@ -217,16 +264,4 @@ fn say_solved(solved: &Solved) {
             percent(wrong_side)
         ));
     }
-}
-
-fn say_times(prepared: &Prepared, solved: &Solved, read: f64, output: f64) {
-    say(&format!(
-        "time: read {}, mesh {}, occluder {}, census {}, shooting {}, output {}",
-        seconds(read),
-        seconds(prepared.mesh_seconds),
-        seconds(prepared.occluder_seconds),
-        seconds(prepared.census_seconds),
-        seconds(solved.seconds),
-        seconds(output)
-    ));
 }

@@ -4,18 +4,33 @@ use std::io::{BufRead, BufReader, Read};
 
 use scene::Rgb;
 
-use super::Row;
+use super::places::PLACE_SLACK;
+use super::{Place, Row};
 use crate::{Error, ErrorKind};
 
-/// The columns that the reader knows; the first five must be there.
-const COLUMNS: [&str; 10] =
-    ["triangle", "area", "B_r", "B_g", "B_b", "se_r", "se_g", "se_b", "emits", "ambiguous"];
-const REQUIRED: usize = 5;
+/// The columns that the reader knows; those of [`ROW`] or [`PLACE`] must be there.
+const COLUMNS: [&str; 12] = [
+    "triangle",
+    "area",
+    "B_r",
+    "B_g",
+    "B_b",
+    "se_r",
+    "se_g",
+    "se_b",
+    "emits",
+    "ambiguous",
+    "u",
+    "v",
+];
+const ROW: [usize; 5] = [0, 1, 2, 3, 4];
+const PLACE: [usize; 3] = [0, 10, 11];
 const STANDARD_ERROR: std::ops::Range<usize> = 5..8;
+const UV: std::ops::Range<usize> = 10..12;
 
 /// Reads rows by the names in the first line, in any order: `triangle`, `area`, `B_r`,
-/// `B_g`, `B_b`, and where present `se_r`, `se_g`, `se_b`, `emits`, `ambiguous` (0 or 1).
-/// Other columns are passed over.
+/// `B_g`, `B_b`, and where present `se_r`, `se_g`, `se_b`, `emits`, `ambiguous` (0 or 1), `u`,
+/// `v`. Other columns are passed over.
 ///
 /// # Errors
 /// [`ErrorKind::Text`] with line and column for a missing, repeated or malformed value;
@@ -32,10 +47,24 @@ const STANDARD_ERROR: std::ops::Range<usize> = 5..8;
 /// # Ok::<(), output::Error>(())
 /// ```
 pub fn read(source: impl Read) -> Result<Vec<Row>, Error> {
+    lines(source, &ROW, Header::row)
+}
+
+/// Reads the columns `triangle`, `u`, `v` and, where present, `area`.
+pub(super) fn places(source: impl Read) -> Result<Vec<Place>, Error> {
+    lines(source, &PLACE, Header::place)
+}
+
+/// Reads the header and then a value from each line.
+fn lines<T>(
+    source: impl Read,
+    required: &[usize],
+    value: impl Fn(&Header, &Line) -> Result<T, Error>,
+) -> Result<Vec<T>, Error> {
     let mut source = BufReader::new(source);
     let mut bytes = Vec::new();
     let mut header: Option<Header> = None;
-    let mut rows = Vec::new();
+    let mut values = Vec::new();
     for line in 1.. {
         bytes.clear();
         let length = source.read_until(b'\n', &mut bytes);
@@ -44,12 +73,12 @@ pub fn read(source: impl Read) -> Result<Vec<Row>, Error> {
         }
         let text = Line::new(line, &bytes)?;
         match &header {
-            None => header = Some(Header::read(&text)?),
-            Some(header) => rows.push(header.row(&text)?),
+            None => header = Some(Header::read(&text, required)?),
+            Some(header) => values.push(value(header, &text)?),
         }
     }
     match header {
-        Some(_) => Ok(rows),
+        Some(_) => Ok(values),
         None => Err(fail(1, 1, "expected a first line that names the columns")),
     }
 }
@@ -61,7 +90,7 @@ struct Header {
 }
 
 impl Header {
-    fn read(line: &Line) -> Result<Self, Error> {
+    fn read(line: &Line, required: &[usize]) -> Result<Self, Error> {
         let mut places = [None; COLUMNS.len()];
         let mut fields = 0;
         for (at, name) in line.fields() {
@@ -73,19 +102,22 @@ impl Header {
             fields += 1;
         }
         let absent = |i: &usize| places[*i].is_none();
-        if let Some(i) = (0..REQUIRED).find(absent) {
+        if let Some(i) = required.iter().copied().find(absent) {
             return Err(line.fail(line.end(), format!("expected a column named {}", COLUMNS[i])));
         }
-        if let Some(i) = STANDARD_ERROR.clone().find(absent)
-            && !STANDARD_ERROR.clone().all(|i| absent(&i))
-        {
-            let message = format!("expected a column named {} beside the others", COLUMNS[i]);
-            return Err(line.fail(line.end(), message));
+        for mut group in [STANDARD_ERROR, UV] {
+            if let Some(i) = group.clone().find(absent)
+                && !group.all(|i| absent(&i))
+            {
+                let message = format!("expected a column named {} beside the others", COLUMNS[i]);
+                return Err(line.fail(line.end(), message));
+            }
         }
         Ok(Self { fields, places })
     }
 
-    fn row(&self, line: &Line) -> Result<Row, Error> {
+    /// The values of a line, as many as there are columns.
+    fn fields<'a>(&self, line: &Line<'a>) -> Result<Vec<(usize, &'a str)>, Error> {
         let fields: Vec<_> = line.fields().collect();
         if fields.len() != self.fields {
             let (given, named) = (fields.len(), self.fields);
@@ -93,12 +125,35 @@ impl Header {
             let at = fields.get(named).map_or(line.end(), |f| f.0);
             return Err(line.fail(at, format!("{given} values for {named} columns")));
         }
+        Ok(fields)
+    }
+
+    fn place(&self, line: &Line) -> Result<Place, Error> {
+        let fields = self.fields(line)?;
         let get = |column: usize| self.places[column].map(|place| (column, fields[place]));
-        // The header has checked that the first five are there; the loop keeps it so.
+        let [u, v] = [10, 11].map(|c| line.not_negative(get(c)));
+        // The header has checked that both are there.
+        let uv = [u?.unwrap_or_default(), v?.unwrap_or_default()];
+        if let Some(field) = get(11)
+            && uv[0] + uv[1] > 1.0 + PLACE_SLACK
+        {
+            return Err(line.expected(field, "u + v of at most 1"));
+        }
+        Ok(Place { triangle: line.index(get(0))?, uv, area: line.not_negative(get(1))? })
+    }
+
+    fn row(&self, line: &Line) -> Result<Row, Error> {
+        let fields = self.fields(line)?;
+        let get = |column: usize| self.places[column].map(|place| (column, fields[place]));
+        // The header has checked that what a row needs is there; the loop keeps it so.
         let number = |column| line.number(get(column)).map(Option::unwrap_or_default);
         let flag = |column| line.flag(get(column));
+        let uv = match [10, 11].map(|c| line.number(get(c))) {
+            [u, v] => u?.zip(v?).map(|(u, v)| [u, v]),
+        };
         Ok(Row {
             triangle: line.index(get(0))?,
+            uv,
             area: line.not_negative(get(1))?.unwrap_or_default(),
             exitance: Rgb([number(2)?, number(3)?, number(4)?]),
             se: match [5, 6, 7].map(|c| line.not_negative(get(c))) {

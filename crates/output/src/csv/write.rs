@@ -18,6 +18,7 @@ pub fn rows(scene: &Scene, solution: &Solution) -> Result<Vec<Row>, Error> {
     let exitance = solution.triangle_exitance(scene);
     let row = |(id, exitance): (TriangleId, _)| Row {
         triangle: id.0,
+        uv: None,
         area: scene.area(id),
         exitance,
         se: None,

@@ -1,6 +1,6 @@
 //! Rows out and rows in.
 
-use output::csv::{Row, read, rows};
+use output::csv::{self, Row, read, rows};
 use output::{ErrorKind, Format, Options};
 use scene::Rgb;
 
@@ -29,6 +29,7 @@ fn columns_go_by_name_in_any_order() {
     let text = "ambiguous,B_b,note,B_g,B_r,se_b,se_g,se_r,area,triangle,emits\r\n\
                 0,3,x,2,1,0.3,0.2,0.1,4.5,7,1\r\n";
     let expected = Row {
+        uv: None,
         triangle: 7,
         area: 4.5,
         exitance: Rgb::new(1.0, 2.0, 3.0),
@@ -81,5 +82,35 @@ fn reads_the_references() {
         let error = output::compare(&rows, &rows).unwrap();
         // The counts are those of rows without either mark, by another tool.
         assert_eq!((error.worst_e1(), error.rows_used), (0.0, used), "{name}");
+    }
+}
+
+#[test]
+fn places_are_read_carried_and_compared() {
+    let text = "u,v,B_r,triangle,area\n0.25,0.5,9,3,2\n0,1,9,0,1\n";
+    let places = csv::read_places(text.as_bytes()).unwrap();
+    assert_eq!(places[0], csv::Place { triangle: 3, uv: [0.25, 0.5], area: Some(2.0) });
+    let mut out = Vec::new();
+    csv::write_places(&mut out, &places, &[Rgb::new(1.0, 2.0, 0.1), Rgb::ZERO]).unwrap();
+    let written = String::from_utf8(out.clone()).unwrap();
+    assert_eq!(written, "triangle,u,v,area,B_r,B_g,B_b\n3,0.25,0.5,2,1,2,0.1\n0,0,1,1,0,0,0\n");
+    let rows = csv::read(out.as_slice()).unwrap();
+    assert_eq!(rows[1].uv, Some([0.0, 1.0]));
+    let mut elsewhere = rows.clone();
+    elsewhere[0].uv = Some([0.25, 0.4]);
+    let message = output::compare(&rows, &elsewhere).unwrap_err().to_string();
+    assert_eq!(message, "row 0: u, v [0.25, 0.5] against [0.25, 0.4] in the reference");
+}
+
+#[test]
+fn places_outside_their_triangle_are_refused() {
+    for (text, expected) in [
+        ("triangle,u,v\n0,0.6,0.6\n", "2:7: v: expected u + v of at most 1, found \"0.6\""),
+        ("triangle,u,v\n0,-1,0\n", "2:3: u: expected a number of at least 0, found \"-1\""),
+        ("triangle,u\n", "1:11: expected a column named v"),
+        ("", "1:1: expected a first line that names the columns"),
+    ] {
+        let error = csv::read_places(text.as_bytes()).unwrap_err();
+        assert_eq!(error.to_string(), expected);
     }
 }

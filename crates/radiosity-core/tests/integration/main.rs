@@ -5,7 +5,9 @@
 mod balance;
 mod furnace;
 mod limits;
+mod matrix;
 mod mesh;
 mod models;
 mod plates;
+mod refine;
 mod stiff;

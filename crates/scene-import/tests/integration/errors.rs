@@ -14,7 +14,7 @@ fn the_extension_decides_and_is_asked_for() {
         assert_eq!(error.kind(), ErrorKind::UnknownFormat);
         assert_eq!(
             error.to_string(),
-            format!("{name}: expected a file that ends in .tri, .obj, .gltf or .glb")
+            format!("{name}: expected a file that ends in .tri, .vs3, .obj, .gltf or .glb")
         );
     }
 }

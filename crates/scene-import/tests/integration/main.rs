@@ -17,6 +17,7 @@ mod obj;
 mod shared_scenes;
 mod tri;
 mod tri_records;
+mod vs3;
 
 use scene_import::{Imported, Options, open_bytes};
 

@@ -1,0 +1,149 @@
+//! What may stand in between: triangles in a tree of boxes.
+
+use glam::DVec3;
+
+/// Triangles in a leaf of the tree.
+const LEAF: usize = 4;
+
+/// Triangles that block light from both sides.
+///
+/// # Examples
+/// ```
+/// use form_factor::{Occluders, Polygon, between_occluded};
+/// use glam::DVec3;
+///
+/// let square = |z: f64| [(0., 0.), (1., 0.), (1., 1.), (0., 1.)].map(|(x, y)| DVec3::new(x, y, z));
+/// let mut above = square(1.0);
+/// above.reverse();
+/// let [a, b] = [square(0.0), above].map(|corners| Polygon::new(&corners).unwrap());
+/// // A screen that leaves nothing to see.
+/// let [p, q, r] = [(-1., -1.), (4., -1.), (-1., 4.)].map(|(x, y)| DVec3::new(x, y, 0.5));
+/// let screen = Occluders::build(&[[p, q, r]]);
+/// assert_eq!(between_occluded(&a, &b, &screen, 1e-3).value, 0.0);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Occluders {
+    /// In the order of the leaves.
+    triangles: Vec<[DVec3; 3]>,
+    nodes: Vec<Node>,
+}
+
+/// A box and what is in it: triangles `first..first + count`, or, where `count` is 0, the nodes
+/// after this one and `first`.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    bounds: Bounds,
+    first: u32,
+    count: u32,
+}
+
+/// A box along the axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    pub(crate) low: DVec3,
+    pub(crate) high: DVec3,
+}
+
+impl Bounds {
+    pub(crate) fn of(corners: impl IntoIterator<Item = DVec3>) -> Self {
+        let none = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+        corners
+            .into_iter()
+            .fold(none, |b, corner| Self { low: b.low.min(corner), high: b.high.max(corner) })
+    }
+}
+
+impl Occluders {
+    /// Builds the tree over `triangles`; those with a corner that is not finite block nothing.
+    #[must_use]
+    pub fn build(triangles: &[[DVec3; 3]]) -> Self {
+        let finite = |t: &&[DVec3; 3]| t.iter().all(|corner| corner.is_finite());
+        let mut triangles: Vec<_> = triangles.iter().filter(finite).copied().collect();
+        let mut nodes = Vec::new();
+        if !triangles.is_empty() {
+            split(&mut triangles, 0, &mut nodes);
+        }
+        Self { triangles, nodes }
+    }
+
+    /// Number of triangles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Whether there is nothing that blocks.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// Calls `found` with each triangle whose box and whose parents' boxes `meets` accepts, always
+    /// in the same order.
+    pub(crate) fn visit(
+        &self,
+        meets: impl Fn(&Bounds) -> bool,
+        mut found: impl FnMut(&[DVec3; 3]),
+    ) {
+        let mut open = vec![0];
+        while let Some(at) = open.pop() {
+            let Some(node) = self.nodes.get(at) else { continue };
+            if !meets(&node.bounds) {
+                continue;
+            }
+            if node.count > 0 {
+                let first = node.first as usize;
+                self.triangles[first..first + node.count as usize].iter().for_each(&mut found);
+            } else {
+                open.push(node.first as usize);
+                open.push(at + 1);
+            }
+        }
+    }
+}
+
+/// Adds the node over `triangles`, the first of which has the index `first`, and those below it:
+/// halves by the middle of the centres along the longest side.
+fn split(triangles: &mut [[DVec3; 3]], first: usize, nodes: &mut Vec<Node>) {
+    let bounds = Bounds::of(triangles.iter().flatten().copied());
+    let at = nodes.len();
+    nodes.push(Node { bounds, first: first as u32, count: triangles.len() as u32 });
+    if triangles.len() <= LEAF {
+        return;
+    }
+    let centre = |t: &[DVec3; 3]| t[0] + t[1] + t[2];
+    let centres = Bounds::of(triangles.iter().map(centre));
+    let size = (centres.high - centres.low).to_array();
+    let axis = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
+    let half = triangles.len() / 2;
+    triangles.select_nth_unstable_by(half, |a, b| centre(a)[axis].total_cmp(&centre(b)[axis]));
+    let (left, right) = triangles.split_at_mut(half);
+    split(left, first, nodes);
+    (nodes[at].first, nodes[at].count) = (nodes.len() as u32, 0);
+    split(right, first + half, nodes);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_triangle_is_found_once_and_far_ones_are_not_asked_for() {
+        let triangle = |i: usize| {
+            let at = DVec3::new((i * 7 % 100) as f64, (i * 13 % 17) as f64, i as f64);
+            [at, at + DVec3::X, at + DVec3::Y]
+        };
+        let triangles: Vec<_> = (0..100).map(triangle).collect();
+        let tree = Occluders::build(&triangles);
+        let mut found = Vec::new();
+        tree.visit(|_| true, |t| found.push(t[0].z as usize));
+        found.sort_unstable();
+        assert_eq!(found, (0..100).collect::<Vec<_>>());
+        found.clear();
+        tree.visit(|bounds| bounds.low.z <= 10.0, |t| found.push(t[0].z as usize));
+        assert!((0..=10).all(|i| found.contains(&i)) && found.len() < 40, "{found:?}");
+        Occluders::build(&[]).visit(|_| true, |_| panic!("nothing is in it"));
+        let nan = Occluders::build(&[[DVec3::NAN; 3]]);
+        assert!(nan.is_empty() && tree.len() == 100);
+    }
+}

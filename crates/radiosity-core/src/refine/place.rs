@@ -1,0 +1,176 @@
+//! Exitance at places that a caller names.
+//!
+//! At a single place it is computed there: the place receives every shot, as a mesh's own
+//! points do. Over a small area it is the mean of the mesh's light over that area.
+
+use glam::DVec3;
+use scene::{Face, Rgb, Scene, Solution, TriangleId};
+
+use crate::mesh::{Mesh, ReceiverPoint};
+
+/// A place on the front of an input triangle a b c: a + u (b − a) + v (c − a).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Probe {
+    /// The input triangle.
+    pub triangle: TriangleId,
+    /// Barycentric coordinates of b and c; at least 0, and at most 1 in sum.
+    pub uv: [f64; 2],
+    /// With an area, the mean is asked for over the part of the triangle of that area around
+    /// the place: the one that halving the longest edge leads to.
+    pub area: Option<f64>,
+}
+
+/// Quarterings of a part for its mean: 64 samples.
+const QUARTERINGS: u32 = 3;
+
+/// Two edges count as equally long, and an area as reached, within this relative difference:
+/// files often give six digits.
+const SAME: f64 = 1e-4;
+
+/// A part of a triangle is never halved more often than this: its area is then 2⁻⁶⁴ of it.
+const MOST_HALVINGS: u32 = 64;
+
+impl Probe {
+    fn position(&self, [a, b, c]: [DVec3; 3]) -> DVec3 {
+        a + (b - a) * self.uv[0] + (c - a) * self.uv[1]
+    }
+
+    /// Where the shots have to reach, for a single place.
+    pub(super) fn receiver(&self, scene: &Scene) -> Option<ReceiverPoint> {
+        if self.area.is_some() {
+            return None;
+        }
+        let [a, b, c] = scene.corners(self.triangle);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        let position = self.position([a, b, c]);
+        Some(ReceiverPoint { position, normal, triangle: self.triangle.0 })
+    }
+}
+
+/// The exitance at each probe; `received` is what the receivers among them got, in order.
+pub(super) fn exitance(
+    scene: &Scene,
+    mesh: &Mesh,
+    solution: &Solution,
+    probes: &[Probe],
+    received: &[Rgb],
+) -> Vec<Rgb> {
+    let roots = fronts(mesh, scene.triangles().len());
+    let mut received = received.iter();
+    let at = |probe: &Probe| {
+        let material = scene.material_of(probe.triangle);
+        let corners = scene.corners(probe.triangle);
+        let Some(area) = probe.area else {
+            let h = received.next().copied().unwrap_or_default();
+            return material.emittance + material.reflectance * h;
+        };
+        let roots = &roots[probe.triangle.index()];
+        let part = part_around(corners, probe.position(corners), area);
+        let (mut sum, mut n) = (Rgb::ZERO, 0u32);
+        samples(part, QUARTERINGS, &mut |place| {
+            if let Some(light) = light_at(mesh, solution, roots, place) {
+                sum += light;
+                n += 1;
+            }
+        });
+        if n > 0 { sum / f64::from(n) } else { material.emittance }
+    };
+    probes.iter().map(at).collect()
+}
+
+/// The roots of each input triangle's front.
+fn fronts(mesh: &Mesh, triangles: usize) -> Vec<Vec<u32>> {
+    let mut fronts = vec![Vec::new(); triangles];
+    for (i, root) in mesh.roots.iter().enumerate().filter(|(_, r)| r.face == Face::Front) {
+        fronts[root.triangle.index()].push(i as u32);
+    }
+    fronts
+}
+
+/// Halves the longest edge of a triangle and goes on with the half around `place`, down to
+/// `area`.
+fn part_around(mut part: [DVec3; 3], place: DVec3, area: f64) -> [DVec3; 3] {
+    let size = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
+    for _ in 0..MOST_HALVINGS {
+        if size(part) <= area * (1.0 + SAME) {
+            break;
+        }
+        let length = |k: usize| part[k].distance(part[(k + 1) % 3]);
+        let longest = (0..3).map(length).fold(0.0, f64::max);
+        // The first of edges that are equally long.
+        let k = (0..3).find(|&k| length(k) >= longest * (1.0 - SAME)).unwrap_or(0);
+        let [p, q, r] = [0, 1, 2].map(|i| part[(k + i) % 3]);
+        let middle = p.midpoint(q);
+        let normal = (q - p).cross(r - p);
+        let beside = (middle - r).cross(place - r).dot(normal);
+        let beside_p = (middle - r).cross(p - r).dot(normal);
+        part = if beside * beside_p > 0.0 { [p, middle, r] } else { [middle, q, r] };
+    }
+    part
+}
+
+/// The middles of the quarters of quarters of a triangle.
+fn samples([a, b, c]: [DVec3; 3], times: u32, at: &mut impl FnMut(DVec3)) {
+    if times == 0 {
+        return at((a + b + c) / 3.0);
+    }
+    let (ab, bc, ca) = (a.midpoint(b), b.midpoint(c), c.midpoint(a));
+    for part in [[a, ab, ca], [ab, b, bc], [ca, bc, c], [bc, ca, ab]] {
+        samples(part, times - 1, at);
+    }
+}
+
+/// The mesh's light at a place: linear between the corners, shifted to the element's mean.
+fn light_at(mesh: &Mesh, solution: &Solution, roots: &[u32], place: DVec3) -> Option<Rgb> {
+    let inside = |node: u32| {
+        let weights = weights(mesh.corners(mesh.nodes[node as usize].vertices), place);
+        weights.into_iter().fold(f64::INFINITY, f64::min)
+    };
+    // Of pieces that share an edge, the one that the place lies deepest in.
+    let deepest = |a: u32, b: u32| if inside(b) > inside(a) { b } else { a };
+    let mut node = roots.iter().copied().reduce(deepest)?;
+    while let Some(child) = mesh.nodes[node as usize].children {
+        node = deepest(child, child + 1);
+    }
+    let node = &mesh.nodes[node as usize];
+    let element = &solution.elements[node.elements.start as usize];
+    let weights = weights(mesh.corners(node.vertices), place);
+    let corners = element.corner_exitance;
+    let linear: Rgb = corners.iter().zip(weights).map(|(b, w)| *b * w).sum();
+    let of_corners = corners.into_iter().sum::<Rgb>() / 3.0;
+    Some(linear + element.exitance - of_corners)
+}
+
+/// The weights of the corners at a place in their plane.
+pub(super) fn weights([a, b, c]: [DVec3; 3], place: DVec3) -> [f64; 3] {
+    let normal = (b - a).cross(c - a);
+    let whole = normal.length_squared();
+    let part = |p: DVec3, q: DVec3| (p - place).cross(q - place).dot(normal) / whole;
+    [part(b, c), part(c, a), part(a, b)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_find_the_place_again() {
+        let corners = [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 1.0, 0.0), DVec3::Y];
+        let place = corners[0] * 0.2 + corners[1] * 0.5 + corners[2] * 0.3;
+        let [u, v, w] = weights(corners, place);
+        assert!((u - 0.2).abs() + (v - 0.5).abs() + (w - 0.3).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_part_is_found_by_halving() {
+        // A right isosceles triangle halves into two of its kind: by hand, the half at b.
+        let whole = [DVec3::ZERO, DVec3::X * 2.0, DVec3::Y * 2.0];
+        let part = part_around(whole, DVec3::new(1.6, 0.2, 0.0), 1.0);
+        assert!(part.contains(&(DVec3::X * 2.0)) && part.contains(&DVec3::new(1.0, 1.0, 0.0)));
+        assert_eq!(part_around(whole, DVec3::ZERO, 2.0), whole);
+        let mut n = 0;
+        let mut sum = DVec3::ZERO;
+        samples(whole, QUARTERINGS, &mut |p| (n, sum) = (n + 1, sum + p));
+        assert!(n == 64 && (sum / 64.0).distance(DVec3::new(2.0, 2.0, 0.0) / 3.0) < 1e-14);
+    }
+}

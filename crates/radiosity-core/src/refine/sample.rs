@@ -1,0 +1,117 @@
+//! Form factors and visibility, estimated a second time on a sample of elements.
+
+use scene::{Rgb, Scene, Solution};
+
+use super::statement::Measured;
+use super::surface::{Counted, Sides, counted_elements, side_of};
+use crate::executor::Executor;
+use crate::mesh::Mesh;
+use crate::shooting::Shooting;
+
+/// Elements in the sample: enough for an error of the error of some ten per cent.
+const SAMPLE: usize = 256;
+
+/// What the sample says.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sampled {
+    pub(super) triangles: Measured,
+    pub(super) points: Measured,
+    pub(super) rows: [f64; 2],
+    pub(super) elements: usize,
+}
+
+/// Compares what the shots brought to the corners of a sample of elements with a finer
+/// estimate of the same.
+///
+/// The sample is systematic: every element stands in line for as long as its counted power,
+/// and one is taken at equal steps. A difference δ is worth ρδ of exitance there. What the
+/// differences have in common goes on to other surfaces, h̄/(1 − h̄) times, with h̄ the share of
+/// the light shot that comes back.
+pub(super) fn form_factors<E: Executor>(
+    scene: &Scene,
+    mesh: &Mesh,
+    shooting: &Shooting<'_, E>,
+    solution: &Solution,
+    counted: Counted,
+) -> Sampled {
+    let whole = Sides::of(scene, mesh, solution, counted);
+    let chosen = choose(mesh, solution, counted, whole.power.sum());
+    if chosen.is_empty() {
+        return Sampled { rows: [1.0, 1.0], ..Sampled::default() };
+    }
+    let points: Vec<u32> = chosen.iter().flat_map(|c| mesh.elements[c.element].points).collect();
+    let gathered = shooting.gather(&points);
+    let mut rows = [f64::INFINITY, 0.0f64];
+    for g in &gathered {
+        rows = [rows[0].min(g.row), rows[1].max(g.row)];
+    }
+    // Σ over the sample estimates ∫ over the surfaces: each stands for its share of the power.
+    let mut absolute = Rgb::ZERO;
+    let mut largest = Rgb::ZERO;
+    let mut common = Rgb::ZERO;
+    let mut by_side: Vec<(usize, Rgb)> = Vec::new();
+    for (c, corners) in chosen.iter().zip(gathered.chunks(3)) {
+        let rho = mesh.root_of(&mesh.elements[c.element]).reflectance;
+        let difference: Rgb = corners.iter().map(|g| g.irradiance - g.shot).sum();
+        let exitance = rho * difference / 3.0;
+        let power = exitance * c.stands_for;
+        absolute += power.abs();
+        common += power;
+        largest = Rgb([0, 1, 2].map(|k| largest[k].max(exitance[k].abs())));
+        match by_side.last_mut() {
+            Some((side, sum)) if *side == c.side => *sum += power,
+            _ => by_side.push((c.side, power)),
+        }
+    }
+    let of_sides: Rgb = by_side.iter().map(|(_, power)| power.abs()).sum();
+    let back = returning(mesh, solution);
+    let spread = Rgb([0, 1, 2].map(|c| common[c].abs() * back[c] / (1.0 - back[c])));
+    let einf = largest.share_of(whole.mean());
+    Sampled {
+        triangles: Measured { e1: (of_sides + spread).share_of(whole.power), einf },
+        points: Measured { e1: (absolute + spread).share_of(whole.power), einf },
+        rows,
+        elements: chosen.len(),
+    }
+}
+
+/// An element of the sample.
+struct Chosen {
+    element: usize,
+    side: usize,
+    /// The area it stands for.
+    stands_for: f64,
+}
+
+fn choose(mesh: &Mesh, solution: &Solution, counted: Counted, total: f64) -> Vec<Chosen> {
+    let mut chosen: Vec<Chosen> = Vec::new();
+    let step = total / SAMPLE as f64;
+    let mut passed = 0.0;
+    let mut next = step / 2.0;
+    for (i, (element, lit)) in mesh.elements.iter().zip(&solution.elements).enumerate() {
+        if !counted.counts(mesh, element) {
+            continue;
+        }
+        let brightness = counted.part(mesh, element, lit.exitance).sum();
+        passed += brightness * element.area;
+        while step > 0.0 && passed > next {
+            next += step;
+            let stands_for = step / brightness;
+            match chosen.last_mut() {
+                Some(last) if last.element == i => last.stands_for += stands_for,
+                _ => chosen.push(Chosen { element: i, side: side_of(lit), stands_for }),
+            }
+        }
+    }
+    chosen
+}
+
+/// The share of the exitance that is reflected light: what comes back of what is shot.
+fn returning(mesh: &Mesh, solution: &Solution) -> Rgb {
+    let (mut reflected, mut all) = (Rgb::ZERO, Rgb::ZERO);
+    for (element, lit) in counted_elements(mesh, solution, Counted::Reflected) {
+        reflected += (lit.exitance - mesh.root_of(element).emittance) * element.area;
+        all += lit.exitance * element.area;
+    }
+    reflected.share_of(all)
+}

@@ -1,0 +1,157 @@
+//! How wrong the light is: the statement, and how its mesh part follows from several meshes.
+
+use scene::Rgb;
+
+/// The parts of one relative error; they add up to [`Parts::total`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Parts {
+    /// Light that is still unshot: a bound.
+    pub iteration: f64,
+    /// Form factors and visibility: a second estimate on a sample.
+    pub form_factor: f64,
+    /// Elements of finite size: differences between meshes. Infinite if there is but one.
+    pub mesh: f64,
+}
+
+impl Parts {
+    /// The sum of the parts.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.iteration + self.form_factor + self.mesh
+    }
+}
+
+/// One kind of error in two measures, each of the channel in which its total is largest.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stated {
+    /// ΣA|B − B*| / ΣA·B*.
+    pub e1: Parts,
+    /// max|B − B*| over the area mean of B*.
+    pub einf: Parts,
+}
+
+/// How far the light is from that of the scene, by the solver's own account.
+///
+/// B* is the exact exitance; sums and means run over all lit sides that do not emit (where
+/// all emit, over all, and B is what they reflect), so that lamps do not hide the error.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Statement {
+    /// Of the input triangles' means: what a table of triangles holds.
+    pub triangles: Stated,
+    /// Of single places on the surfaces: what vertex colours show.
+    pub points: Stated,
+    /// Of the probes, each counting alike; `None` without probes.
+    pub probes: Option<Stated>,
+    /// Least and largest sum of form factors at the sampled points: 1 in a closed scene.
+    pub rows: [f64; 2],
+    /// Elements sampled for the form factors.
+    pub sample: usize,
+}
+
+/// A relative error in both measures, per channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Measured {
+    pub(super) e1: Rgb,
+    pub(super) einf: Rgb,
+}
+
+impl Measured {
+    pub(super) const UNKNOWN: Self =
+        Self { e1: Rgb::splat(f64::INFINITY), einf: Rgb::splat(f64::INFINITY) };
+
+    fn both(self, f: impl Fn(Rgb) -> Rgb) -> Self {
+        Self { e1: f(self.e1), einf: f(self.einf) }
+    }
+}
+
+/// The difference between two meshes, and how many elements each has.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    pub(super) difference: Measured,
+    pub(super) from: usize,
+    pub(super) to: usize,
+}
+
+/// The factor on the estimate of the mesh's error: differences between meshes scatter.
+///
+/// Against path-traced references, `true error / estimate` lies between .4 and 1.1 for the
+/// scenes and element counts of docs/accuracy.md.
+const SAFETY: f64 = 1.5;
+
+/// The error of the last mesh, from one or two steps up to it (Richardson 1911).
+///
+/// Constant elements under piecewise smooth light err in the first order of their edge h, so
+/// from n₁ to n₂ elements the difference is (√(n₂/n₁) − 1) errors of the finer mesh. Two
+/// steps give two such estimates; their geometric mean scatters less than either.
+pub(super) fn mesh_error(before: Option<Step>, last: Step) -> Measured {
+    let of_last = richardson(last);
+    let Some(before) = before else { return of_last.both(|e| e * SAFETY) };
+    let finer = ratio(last);
+    let earlier = richardson(before).both(|e| e / finer);
+    let mean = |a: Rgb, b: Rgb| Rgb([0, 1, 2].map(|c| (a[c] * b[c]).sqrt() * SAFETY));
+    Measured { e1: mean(of_last.e1, earlier.e1), einf: mean(of_last.einf, earlier.einf) }
+}
+
+/// What the error of `last`'s coarser mesh says of a finer one that was not finished.
+pub(super) fn foreseen(coarser: Measured, from: usize, to: usize) -> Measured {
+    let finer = (to as f64 / from.max(1) as f64).sqrt();
+    coarser.both(|e| e / finer)
+}
+
+fn ratio(step: Step) -> f64 {
+    (step.to as f64 / step.from.max(1) as f64).sqrt()
+}
+
+fn richardson(step: Step) -> Measured {
+    let steps = ratio(step) - 1.0;
+    if steps > 0.0 { step.difference.both(|d| d / steps) } else { Measured::UNKNOWN }
+}
+
+/// Puts three parts together, each measure in its worst channel.
+pub(super) fn stated(iteration: Measured, form_factor: Measured, mesh: Measured) -> Stated {
+    let worst = |i: Rgb, f: Rgb, m: Rgb| {
+        let parts = [0, 1, 2].map(|c| Parts { iteration: i[c], form_factor: f[c], mesh: m[c] });
+        parts.into_iter().fold(Parts::default(), |worst, parts| {
+            if parts.total() > worst.total() { parts } else { worst }
+        })
+    };
+    Stated {
+        e1: worst(iteration.e1, form_factor.e1, mesh.e1),
+        einf: worst(iteration.einf, form_factor.einf, mesh.einf),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(e1: f64, from: usize, to: usize) -> Step {
+        let difference = Measured { e1: Rgb::splat(e1), einf: Rgb::splat(2.0 * e1) };
+        Step { difference, from, to }
+    }
+
+    #[test]
+    fn first_order_errors_are_found_from_one_step_or_two() {
+        // e(n) = 8/√n: .8 at 100, .4 at 400, .2 at 1600; differences .4 and .2.
+        let one = mesh_error(None, step(0.2, 400, 1600));
+        let two = mesh_error(Some(step(0.4, 100, 400)), step(0.2, 400, 1600));
+        for found in [one, two] {
+            assert!((found.e1[0] / SAFETY - 0.2).abs() < 1e-15, "{found:?}");
+            assert!((found.einf[0] / SAFETY - 0.4).abs() < 1e-15, "{found:?}");
+        }
+        assert!((foreseen(one, 1600, 6400).e1[0] - 0.1 * SAFETY).abs() < 1e-15);
+    }
+
+    #[test]
+    fn no_finer_mesh_no_estimate() {
+        assert_eq!(mesh_error(None, step(0.2, 400, 400)), Measured::UNKNOWN.both(|e| e * SAFETY));
+    }
+
+    #[test]
+    fn the_worst_channel_is_that_of_the_sum() {
+        let of = |r, g| Measured { e1: Rgb::new(r, g, 0.0), einf: Rgb::ZERO };
+        let stated = stated(of(0.1, 0.0), of(0.0, 0.02), of(0.1, 0.19));
+        assert_eq!(stated.e1, Parts { iteration: 0.0, form_factor: 0.02, mesh: 0.19 });
+        assert_eq!(stated.einf.total(), 0.0);
+    }
+}
