@@ -1,0 +1,7 @@
+//! The program as a user meets it: files, messages, exit codes.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
+
+mod solve;
+mod statement;
+mod support;
