@@ -33,6 +33,8 @@ pub(crate) enum Command {
     Convert(ConvertArgs),
     /// Measure how far two solutions (.csv) are apart
     Compare(CompareArgs),
+    /// Check known answers on this machine: closed forms, known solutions, the bundled scenes
+    Verify(VerifyArgs),
 }
 
 /// How a scene file is read.
@@ -232,6 +234,16 @@ pub(crate) struct CompareArgs {
     /// Fail (exit code 1) if E1 of the worst channel is above this, as 0.03 or 3%
     #[arg(long, value_name = "X", value_parser = share)]
     pub(crate) at_most: Option<f64>,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Prints a row per case: what must come out, what came out, how far off that is, how far off it
+may be, and the time. Exit code 1 if a case fails.")]
+pub(crate) struct VerifyArgs {
+    /// Only the cases with this in their name
+    #[arg(long, value_name = "PART")]
+    pub(crate) only: Option<String>,
 }
 
 /// A share: `1e-3` or `0.1%`.

@@ -1,5 +1,6 @@
-//! The scene inside the program: the Cornell box.
+//! The scenes inside the program; the first choice is the Cornell box.
 
+use scene::Scene;
 use scene_import::{Imported, Options};
 
 use crate::failure::Failure;
@@ -7,10 +8,26 @@ use crate::failure::Failure;
 /// What the bundled scene is called in messages and reports.
 pub(crate) const NAME: &str = "cornell.glb";
 
-/// The file `cargo xtask scenes` writes.
-const BYTES: &[u8] = include_bytes!("../../../scenes/cornell.glb");
+/// The files that `cargo xtask scenes` writes.
+const FILES: [(&str, &[u8]); 6] = [
+    (NAME, include_bytes!("../../../scenes/cornell.glb")),
+    ("gallery.glb", include_bytes!("../../../scenes/gallery.glb")),
+    ("room.tri", include_bytes!("../../../scenes/room.tri")),
+    ("blocks.tri", include_bytes!("../../../scenes/blocks.tri")),
+    ("hall.tri", include_bytes!("../../../scenes/hall.tri")),
+    ("church.tri", include_bytes!("../../../scenes/church.tri")),
+];
 
 /// Opens the bundled scene.
 pub(crate) fn open(options: &Options) -> Result<Imported, Failure> {
-    Ok(scene_import::open_bytes(NAME, BYTES, options)?)
+    let (name, bytes) = FILES[0];
+    Ok(scene_import::open_bytes(name, bytes, options)?)
+}
+
+/// All of them, by name.
+pub(crate) fn scenes() -> Result<Vec<(&'static str, Scene)>, Failure> {
+    let open = |(name, bytes): &(&'static str, &[u8])| {
+        Ok((*name, scene_import::open_bytes(name, bytes, &Options::default())?.scene))
+    };
+    FILES.iter().map(open).collect()
 }

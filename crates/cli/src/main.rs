@@ -31,6 +31,7 @@ fn main() -> ExitCode {
             settings::form_factors(args).and_then(|s| commands::form_factors::run(&s))
         }
         Some(Command::Compare(args)) => commands::compare::run(&args),
+        Some(Command::Verify(args)) => commands::verify::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,8 +1,6 @@
 //! A scene whose light is known, read from a JSON file.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 use scene::{Face, Material, Rgb, Scene, Sides, Solution};
 use serde::Deserialize;
@@ -12,6 +10,30 @@ use crate::{Error, Geometry};
 
 /// The surface of all groups that [`Case::surfaces`] does not name.
 pub const OTHERS: &str = "*";
+
+/// The files of the folder `cases`, inside the program so that it can run them anywhere.
+macro_rules! files {
+    ($($id:literal),* $(,)?) => {
+        const FILES: &[(&str, &str)] =
+            &[$(($id, include_str!(concat!("../cases/", $id, ".json")))),*];
+    };
+}
+
+files! {
+    "concentric_spheres_lamp",
+    "concentric_spheres_shell",
+    "dark",
+    "general_furnace_box",
+    "general_furnace_furnished",
+    "integrating_sphere_port",
+    "two_plates_half",
+    "two_plates_two",
+    "white_furnace_cube_bright",
+    "white_furnace_cube_half",
+    "white_furnace_furnished_bright",
+    "white_furnace_furnished_half",
+    "zero_reflectance",
+}
 
 /// A scene whose light is known.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -117,19 +139,14 @@ pub enum EnginePart {
 }
 
 impl Case {
-    /// Reads one case of this crate by its id.
+    /// One case of this crate, by its id.
     ///
     /// # Errors
-    /// If there is no such file, or it is no case.
+    /// If there is no such case.
     pub fn load(id: &str) -> Result<Self, Error> {
-        let path = folder().join(format!("{id}.json"));
-        let text =
-            fs::read_to_string(&path).map_err(|e| Error::caused(path.display().to_string(), e))?;
-        let case = Self::parse(&path.display().to_string(), &text)?;
-        if case.id == id {
-            Ok(case)
-        } else {
-            Err(Error::new(path.display().to_string(), format!("expected the id {id}")))
+        match FILES.iter().find(|(name, _)| *name == id) {
+            Some((name, text)) => Self::parse(&format!("cases/{name}.json"), text),
+            None => Err(Error::new(id, "expected the id of a case")),
         }
     }
 
@@ -142,20 +159,8 @@ impl Case {
     }
 
     /// The ids of all cases of this crate, in order.
-    ///
-    /// # Errors
-    /// If the folder cannot be read.
-    pub fn ids() -> Result<Vec<String>, Error> {
-        let refused = |e| Error::caused(folder().display().to_string(), e);
-        let mut ids = Vec::new();
-        for entry in fs::read_dir(folder()).map_err(refused)? {
-            let path = entry.map_err(refused)?.path();
-            if path.extension().is_some_and(|e| e == "json") {
-                ids.extend(path.file_stem().map(|stem| stem.to_string_lossy().into_owned()));
-            }
-        }
-        ids.sort();
-        Ok(ids)
+    pub fn ids() -> impl Iterator<Item = &'static str> {
+        FILES.iter().map(|(id, _)| *id)
     }
 
     /// The scene, with a group for each part of the geometry.
@@ -201,28 +206,43 @@ impl Case {
         self.skips.iter().find(|s| has(s.engine)).map(|s| s.reason.as_str())
     }
 
-    /// The largest relative error of a solution over all that is expected, and of which
-    /// group; anything but 0 where 0 is expected, and what is no number, counts as infinitely
-    /// wrong.
+    /// The number of a solution that is furthest from what is expected; anything but 0 where 0
+    /// is expected, and what is no number, counts as infinitely wrong.
     #[must_use]
-    pub fn error(&self, scene: &Scene, solution: &Solution) -> (f64, &str) {
-        let mut worst = (0.0, "");
+    pub fn worst(&self, scene: &Scene, solution: &Solution) -> Worst<'_> {
+        let mut worst: Option<Worst> = None;
         for expected in &self.expected {
             for light in lights(expected, scene, solution) {
-                for (b, exact) in light.0.into_iter().zip(expected.exitance) {
-                    let error = relative(b, exact);
-                    if error > worst.0 {
-                        worst = (error, expected.group.as_str());
+                for (ours, exact) in light.0.into_iter().zip(expected.exitance) {
+                    let error = relative(ours, exact);
+                    if worst.as_ref().is_none_or(|w| error > w.error) {
+                        worst = Some(Worst { group: &expected.group, exact, ours, error });
                     }
                 }
             }
         }
-        worst
+        worst.unwrap_or(Worst { group: "", exact: 0.0, ours: 0.0, error: 0.0 })
+    }
+
+    /// The largest relative error, and of which group; see [`Case::worst`].
+    #[must_use]
+    pub fn error(&self, scene: &Scene, solution: &Solution) -> (f64, &str) {
+        let worst = self.worst(scene, solution);
+        (worst.error, if worst.error > 0.0 { worst.group } else { "" })
     }
 }
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("cases")
+/// An expected number and what came in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst<'a> {
+    /// Of which group.
+    pub group: &'a str,
+    /// What was expected.
+    pub exact: f64,
+    /// What came.
+    pub ours: f64,
+    /// How far off that is, relative.
+    pub error: f64,
 }
 
 fn relative(b: f64, exact: f64) -> f64 {

@@ -3,9 +3,11 @@
 
 pub mod case;
 mod error;
+pub mod howell;
 pub mod shapes;
 pub mod shared;
 pub mod solve;
+pub mod verify;
 
 pub use case::Case;
 pub use error::Error;

@@ -1,9 +1,12 @@
-//! Nanoseconds per form factor: each estimator on the same pairs of point and triangle.
+//! Nanoseconds per form factor: estimators from a point, and pairs of triangles by tolerance.
 
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use form_factor::{centroid_kernel, lambert, three_point_kernel};
+use form_factor::{
+    Occluders, Polygon, REFERENCE, between, between_occluded, centroid_kernel, lambert,
+    three_point_kernel,
+};
 use glam::DVec3;
 
 /// Points on a floor and unit triangles above it, at distances of 1 to 20.
@@ -18,7 +21,7 @@ fn pairs() -> Vec<(DVec3, [DVec3; 3])> {
         .collect()
 }
 
-fn form_factors(c: &mut Criterion) {
+fn from_points(c: &mut Criterion) {
     let pairs = pairs();
     let mut group = c.benchmark_group("form_factor");
     group.throughput(Throughput::Elements(pairs.len() as u64));
@@ -36,5 +39,114 @@ fn form_factors(c: &mut Criterion) {
     sum_of("lambert_cut", &|p, t| lambert(p, DVec3::X, t).form_factor);
 }
 
-criterion_group!(benches, form_factors);
+/// Numbers in 0..1 that look random (xorshift, Marsaglia 2003).
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn vector(&mut self) -> DVec3 {
+        DVec3::new(self.number() - 0.5, self.number() - 0.5, self.number() - 0.5)
+    }
+
+    /// A triangle of edges near 1 around a place, turned towards another place.
+    fn triangle(&mut self, at: DVec3, towards: DVec3) -> Polygon {
+        loop {
+            let [p, q, r] = [(); 3].map(|()| at + self.vector());
+            let Some(triangle) = Polygon::triangle([p, q, r]) else { continue };
+            if triangle.area() < 0.1 {
+                continue;
+            }
+            if triangle.normal().dot(towards - at) > 0.0 {
+                return triangle;
+            }
+            return Polygon::triangle([p, r, q]).expect("it has the same area");
+        }
+    }
+}
+
+/// Random pairs that face one another at a distance in edges.
+fn apart(random: &mut Random, distance: [f64; 2]) -> Vec<(Polygon, Polygon)> {
+    (0..256)
+        .map(|_| {
+            let far = distance[0] + (distance[1] - distance[0]) * random.number();
+            let at = random.vector().normalize() * far;
+            (random.triangle(DVec3::ZERO, at), random.triangle(at, DVec3::ZERO))
+        })
+        .collect()
+}
+
+/// Random pairs that share an edge, at angles of 30° to 150°.
+fn touching(random: &mut Random) -> Vec<(Polygon, Polygon)> {
+    (0..256)
+        .map(|_| {
+            let (sin, cos) = (0.5 + 2.0 * random.number()).sin_cos();
+            let [x, y] = [random.number(), 0.3 + random.number()];
+            let one = [DVec3::ZERO, DVec3::X, DVec3::new(x, y, 0.0)];
+            let two = [DVec3::X, DVec3::ZERO, DVec3::new(y, x * cos + cos, sin + x * sin)];
+            let [one, two] = [one, two].map(|t| Polygon::triangle(t).expect("it has an area"));
+            (one, two)
+        })
+        .collect()
+}
+
+fn between_triangles(c: &mut Criterion) {
+    let mut random = Random(88_172_645_463_325_252);
+    let sets = [
+        ("far", apart(&mut random, [10.0, 30.0])),
+        ("middle", apart(&mut random, [3.0, 10.0])),
+        ("near", apart(&mut random, [0.8, 2.0])),
+        ("touching", touching(&mut random)),
+    ];
+    for (name, pairs) in &sets {
+        let mut group = c.benchmark_group(format!("between/{name}"));
+        group.throughput(Throughput::Elements(pairs.len() as u64));
+        for tolerance in [1e-1, 1e-2, 1e-3, 1e-4, REFERENCE] {
+            group.bench_function(format!("{tolerance:e}"), |b| {
+                let f = |(one, two): &(Polygon, Polygon)| between(one, two, tolerance).value;
+                b.iter(|| black_box(pairs).iter().map(f).sum::<f64>());
+            });
+        }
+    }
+}
+
+fn behind_occluders(c: &mut Criterion) {
+    let mut random = Random(362_436_069_521_288_629);
+    let pairs = &apart(&mut random, [2.0, 4.0])[..32];
+    for count in [1, 4] {
+        // Around the middle of each pair, so that most stand in between.
+        let cases: Vec<_> = pairs
+            .iter()
+            .map(|(one, two)| {
+                let middle = (one.corners()[0] + two.corners()[0]) / 2.0;
+                let screens: Vec<_> = (0..count)
+                    .map(|_| {
+                        let at = middle + random.vector() * 0.5;
+                        [(); 3].map(|()| at + random.vector())
+                    })
+                    .collect();
+                (one, two, Occluders::build(&screens))
+            })
+            .collect();
+        let mut group = c.benchmark_group(format!("between_occluded/{count}"));
+        group.throughput(Throughput::Elements(cases.len() as u64));
+        group.sample_size(10);
+        for tolerance in [1e-1, 1e-2, 1e-3] {
+            group.bench_function(format!("{tolerance:e}"), |b| {
+                b.iter(|| {
+                    let f =
+                        cases.iter().map(|(a, b, o)| between_occluded(a, b, o, tolerance).value);
+                    f.sum::<f64>()
+                });
+            });
+        }
+    }
+}
+
+criterion_group!(benches, from_points, between_triangles, behind_occluders);
 criterion_main!(benches);

@@ -30,6 +30,9 @@ const PASSES: u32 = 6;
 /// Kernels that may be spent where the contour cancels: about a millisecond.
 const MOST_KERNELS: u32 = 1 << 18;
 
+/// What kernels are asked for where they cannot meet the tolerance.
+const COARSE: f64 = 1e-5;
+
 /// Points that may be spent on the mean of Lambert's form.
 const MOST_POINTS: u32 = 1 << 12;
 
@@ -132,12 +135,14 @@ fn without_cancelling(small: &Part, large: &Part, tolerance: f64, near: Exchange
         best = means;
     }
     let whole = [small, large].map(|part| Polygon::part(part.corners.clone(), part.normal));
-    if best.error > tolerance * best.value
-        && let [Some(a), Some(b)] = whole
-        && let Some(kernels) = pieces(&a, &b, tolerance, MOST_KERNELS)
-        && kernels.error < best.error
-    {
-        best = kernels;
+    let [Some(a), Some(b)] = whole else { return best };
+    for tolerance in [tolerance, tolerance.max(COARSE)] {
+        if best.error > tolerance * best.value
+            && let Some(kernels) = pieces(&a, &b, tolerance, MOST_KERNELS)
+            && kernels.error < best.error
+        {
+            best = kernels;
+        }
     }
     best
 }

@@ -17,9 +17,6 @@ use glam::DVec3;
 use crate::edge_pair::{Edge, closed_form, inner};
 use crate::gauss::{COUNTS, LINE};
 
-/// Nodes beyond which an edge pair is treated by itself.
-const TOGETHER: usize = 10;
-
 /// Nodes beyond which a closed form or halving is cheaper.
 const MOST: usize = 16;
 
@@ -99,7 +96,10 @@ fn pair(outer: &Edge, edge: &Edge, cosine: f64, allowed: f64, halvings: u32, sum
 /// The size of the terms that make up the integral over `edge` from a place near `x`.
 fn terms(x: DVec3, edge: &Edge) -> f64 {
     let (start, end) = (edge.from - x, edge.to - x);
-    let term = |v: DVec3| v.dot(edge.direction).abs() * (1.0 + v.length_squared().ln().abs());
+    let term = |v: DVec3| {
+        let r2 = v.length_squared().max(f64::MIN_POSITIVE);
+        v.dot(edge.direction).abs() * (1.0 + r2.ln().abs())
+    };
     edge.length + term(start) + term(end)
 }
 

@@ -31,10 +31,6 @@ impl Corners {
         }
         self.len += 1;
     }
-
-    pub(crate) fn map(&self, f: impl Fn(DVec3) -> DVec3) -> Self {
-        self.iter().map(|&corner| f(corner)).collect()
-    }
 }
 
 impl FromIterator<DVec3> for Corners {
@@ -65,10 +61,6 @@ mod tests {
             let expected: Vec<_> = (0..count).map(|i| DVec3::splat(i as f64)).collect();
             let corners: Corners = expected.iter().copied().collect();
             assert_eq!(&corners[..], &expected[..]);
-            assert_eq!(
-                &corners.map(|c| c * 2.0)[..],
-                &corners.iter().map(|c| c * 2.0).collect::<Vec<_>>()[..]
-            );
         }
     }
 }

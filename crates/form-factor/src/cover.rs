@@ -70,7 +70,7 @@ fn hull(mut points: Vec<DVec3>, normal: DVec3) -> Corners {
         let ((px, py), (qx, qy)) = (place(p), place(q));
         px.total_cmp(&qx).then(py.total_cmp(&qy))
     });
-    let mut half = |points: &mut dyn Iterator<Item = DVec3>| {
+    let half = |points: &mut dyn Iterator<Item = DVec3>| {
         let mut chain: Vec<DVec3> = Vec::new();
         for point in points {
             while let [.., p, q] = chain[..]

@@ -49,13 +49,13 @@ const SLOW: f64 = 4.0;
 /// A rule that has corners and is exact to degree 2, less the rule of [`NODES`]: 0 for quadratic
 /// polynomials, and for steps and kinks a measure of what any rule may miss.
 const NULL: [f64; PROBES] = {
-    let (corner, inner, outer) = (0.25 / 3.0, 0.287_709_8 / 3.0, -0.537_709_8 / 3.0);
+    let (corner, inner, outer) = (0.25 / 3.0, 0.287_694_612 / 3.0, -0.537_694_612 / 3.0);
     [inner, inner, inner, outer, outer, outer, corner, corner, corner]
 };
 
 /// The share of [`NULL`] that counts as error, where a piece is settled and where it is not.
 const SETTLED_NULL: f64 = 0.02;
-const NULL_SHARE: f64 = 0.2;
+const NULL_SHARE: f64 = 0.4;
 
 /// As long as a piece has no parts, its error counts so many times, and so much of the range of
 /// its values is added.
@@ -74,6 +74,9 @@ const CONVERGED: f64 = 0.25;
 
 /// Change within a piece, in the light without occluders, beyond which it is not settled.
 const STEEP: f64 = 0.25;
+
+/// The share of the tolerance below which an error is not trusted: few points were taken.
+const CHECKED: f64 = 0.5;
 
 /// Roundings of a sum of fragments.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -236,9 +239,11 @@ impl Search<'_> {
             let wanted = (tolerance * value).max(floor);
             let worst = queue.pop().filter(|worst| worst.error > 0.0);
             let Some(worst) = worst.filter(|_| error > wanted && self.points < MOST_POINTS) else {
+                let value = value.clamp(0.0, clear.value);
+                let unchecked = CHECKED * tolerance * value.min(clear.value - value);
                 return Exchange {
-                    value: value.clamp(0.0, clear.value),
-                    error: error + ROUNDING * clear.value,
+                    value,
+                    error: error.max(unchecked) + ROUNDING * clear.value,
                     effort: clear.effort + self.points,
                 };
             };

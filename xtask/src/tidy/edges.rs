@@ -15,7 +15,19 @@ struct Rule {
     dev: &'static [&'static str],
 }
 
-/// What the program and the conformance cases may use.
+/// What the conformance cases may use.
+const BELOW_THE_CASES: &[&str] = &[
+    "tri-io",
+    "scene",
+    "scene-import",
+    "accel",
+    "form-factor",
+    "radiosity-core",
+    "radiosity-par",
+    "output",
+];
+
+/// What the program may use: the cases, too, for `radiosity verify`.
 const BELOW_THE_PROGRAM: &[&str] = &[
     "tri-io",
     "scene",
@@ -25,6 +37,7 @@ const BELOW_THE_PROGRAM: &[&str] = &[
     "radiosity-core",
     "radiosity-par",
     "output",
+    "conformance",
 ];
 
 /// Every member, from the bottom up.
@@ -37,8 +50,8 @@ const RULES: [Rule; 11] = [
     Rule { member: "radiosity-core", normal: &["accel", "form-factor", "scene"], dev: &[] },
     Rule { member: "radiosity-par", normal: &["radiosity-core"], dev: &["accel", "scene"] },
     Rule { member: "output", normal: &["scene", "tri-io"], dev: &[] },
+    Rule { member: "conformance", normal: BELOW_THE_CASES, dev: &[] },
     Rule { member: "cli", normal: BELOW_THE_PROGRAM, dev: &[] },
-    Rule { member: "conformance", normal: BELOW_THE_PROGRAM, dev: &[] },
     Rule { member: "xtask", normal: &[], dev: &[] },
 ];
 

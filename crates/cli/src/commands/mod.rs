@@ -5,3 +5,4 @@ pub(crate) mod convert;
 pub(crate) mod form_factors;
 pub(crate) mod plan;
 pub(crate) mod solve;
+pub(crate) mod verify;

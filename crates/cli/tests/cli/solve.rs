@@ -334,3 +334,15 @@ fn links_stay_links_and_modes_stay() {
     assert!(std::fs::read_to_string(&target).unwrap().starts_with("triangle,"));
     assert_eq!(target.metadata().unwrap().permissions().mode() & 0o777, 0o600);
 }
+
+#[test]
+fn verify_prints_a_row_per_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = radiosity(folder.path(), &["verify", "--only", "B-3"]);
+    assert_eq!(run.code(), 0, "{}", run.stderr());
+    let text = run.stdout();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines[0].starts_with("case") && lines[1].contains("0.138531606"), "{text}");
+    assert!(lines[2].starts_with("1 of 1 passed"), "{text}");
+    assert_eq!(radiosity(folder.path(), &["verify", "--only", "no such"]).code(), 2);
+}

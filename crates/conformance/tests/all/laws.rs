@@ -10,8 +10,9 @@ const PRINTED: f64 = 1e-14;
 
 #[test]
 fn expected_numbers_follow_from_the_law() {
-    for id in Case::ids().unwrap() {
-        let case = Case::load(&id).unwrap();
+    for id in Case::ids() {
+        let case = Case::load(id).unwrap();
+        assert_eq!(case.id, id);
         assert!(!case.source.is_empty() && !case.bound.is_empty(), "{id}");
         let mut groups = 0;
         for (group, _) in case.geometry.groups().unwrap() {
