@@ -16,6 +16,9 @@ pub const REFERENCE: f64 = 1e-10;
 /// what is near the smaller one and what is not: the contour's terms grow with the longer edge.
 const CONTRAST: f64 = 32.0;
 
+/// Distance in longest edges of the larger polygon from which kernels are tried.
+const FAR: f64 = 3.0;
+
 /// Half the width of what is near, in longest edges of the smaller polygon.
 const NEIGHBOURHOOD: f64 = 8.0;
 
@@ -25,7 +28,7 @@ const EXPECTED: f64 = 0.1;
 
 /// Passes over the contour: each brings the rules' error down to what is wanted, if the sum of the
 /// last is right.
-const PASSES: u32 = 6;
+const PASSES: u32 = 12;
 
 /// Kernels that may be spent where the contour cancels: about a millisecond.
 const MOST_KERNELS: u32 = 1 << 18;
@@ -105,8 +108,9 @@ impl Exchange {
 
 /// The exchange area of two polygons that lie in front of one another.
 pub(crate) fn exchange(small: &Part, large: &Part, tolerance: f64) -> Exchange {
-    if let Some(apart) = apart(small, large, tolerance) {
-        return apart;
+    if let Some(exchange) = far(small, large, tolerance).or_else(|| apart(small, large, tolerance))
+    {
+        return exchange;
     }
     if large.longest > CONTRAST * small.longest {
         return beside(small, large, tolerance);
@@ -147,6 +151,17 @@ fn without_cancelling(small: &Part, large: &Part, tolerance: f64, near: Exchange
     best
 }
 
+/// By kernels, if the polygons are far from one another: one that was cut did not get here before.
+fn far(small: &Part, large: &Part, tolerance: f64) -> Option<Exchange> {
+    if small.corners[0].distance(large.corners[0]) < FAR * large.longest {
+        return None;
+    }
+    let a = Polygon::part(small.corners.clone(), small.normal)?;
+    let b = Polygon::part(large.corners.clone(), large.normal)?;
+    let Estimate { value, error, effort } = product(&a, &b, tolerance)?;
+    Some(Exchange { value: value * a.area(), error: error * a.area(), effort })
+}
+
 /// By the mean of Lambert's form, if the larger is far enough for the size of the smaller.
 fn apart(small: &Part, large: &Part, tolerance: f64) -> Option<Exchange> {
     let outlook = Outlook::new(&small.corners, large);
@@ -179,7 +194,7 @@ fn near(small: &Part, large: &[DVec3], tolerance: f64) -> Exchange {
         if error <= wanted || sum.left_out <= sum.rounding || pass == PASSES {
             return Exchange { value: sum.value.max(0.0), error, effort };
         }
-        allowed *= (0.3 * wanted / sum.left_out).clamp(1e-4, 0.3);
+        allowed *= (0.2 * wanted / sum.left_out).clamp(1e-4, 0.3);
     }
 }
 

@@ -20,6 +20,7 @@ mod pair;
 mod polygon;
 mod product;
 mod rule;
+mod search;
 mod shadow;
 mod shaft;
 

@@ -92,7 +92,7 @@ mod tests {
         assert_eq!(strip.len(), 1);
         assert_eq!(area_vector(&strip[0]), DVec3::Z * 2.0);
         let mut bent = vec![polygon(&[p, q, r]), polygon(&[p, r, [0.9, 1.5]])];
-        bent[1] = bent[1].map(|c| c + DVec3::Z * c.y);
+        bent[1] = bent[1].iter().map(|&c| c + DVec3::Z * c.y).collect();
         merge(&mut bent, 1e-9);
         assert_eq!(bent.len(), 2);
         let mut dented = vec![polygon(&[p, q, r]), polygon(&[q, [3.0, -1.0], r])];

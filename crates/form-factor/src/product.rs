@@ -35,10 +35,14 @@ const SHARE: [f64; 5] = [f64::INFINITY, 1.6, 0.8, 0.25, 0.13];
 /// if there is none or part of one polygon may lie behind the other.
 pub(crate) fn product(a: &Polygon, b: &Polygon, tolerance: f64) -> Option<Estimate> {
     let sight = Sight::new(a, b)?;
-    if sight.above[0] < b.radius() || sight.above[1] < a.radius() {
-        return None;
-    }
-    Some(sight.estimate(a, b, sight.rule(tolerance)?))
+    let rule = sight.rule(tolerance)?;
+    let apart = sight.above[0] >= b.radius() && sight.above[1] >= a.radius();
+    (apart || (in_front(a, b) && in_front(b, a))).then(|| sight.estimate(a, b, rule))
+}
+
+/// Whether no corner of `b` is behind `a`.
+fn in_front(a: &Polygon, b: &Polygon) -> bool {
+    b.corners().iter().all(|&corner| a.normal().dot(corner - a.corners()[0]) >= 0.0)
 }
 
 /// The exchange area of two polygons that lie in front of one another, piece by piece; `None`

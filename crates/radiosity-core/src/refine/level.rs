@@ -14,7 +14,7 @@ use crate::config::{MeshConfig, ShootingConfig};
 use crate::energy::Ledger;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
-use crate::observer::{Observer, StepReport};
+use crate::observer::{Control, Observer, StepReport};
 use crate::shooting::{Shooting, StopReason};
 
 /// Share of the asked error that unshot light may take.
@@ -110,15 +110,24 @@ impl<E: Executor> Setting<'_, E> {
             if reason != StopReason::Converged {
                 return reason;
             }
-            let whole = Sides::of(self.scene, mesh, &shooting.solution(), counted);
-            let missing = shooting.remaining().power.share_of(whole.power).max_channel();
+            let missing = self.missing(mesh, shooting, counted);
             if missing <= most {
                 return reason;
             }
+            if shooting.complete(observer) == Control::Stop {
+                return StopReason::Stopped;
+            }
+            let missing = self.missing(mesh, shooting, counted);
             // A little further than needed, and never so far that one loose bound costs sweeps.
             unshot *= (0.95 * most / missing).clamp(0.1, 0.9);
         }
         StopReason::Converged
+    }
+
+    /// The bound on what further shooting would add, relative, worst channel.
+    fn missing(&self, mesh: &Mesh, shooting: &Shooting<'_, E>, counted: Counted) -> f64 {
+        let whole = Sides::of(self.scene, mesh, &shooting.solution(), counted);
+        shooting.remaining().power.share_of(whole.power).max_channel()
     }
 }
 

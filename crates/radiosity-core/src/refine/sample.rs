@@ -49,7 +49,7 @@ pub(super) fn form_factors<E: Executor>(
     let mut absolute = Rgb::ZERO;
     let mut largest = Rgb::ZERO;
     let mut common = Rgb::ZERO;
-    let mut by_side: Vec<(usize, Rgb)> = Vec::new();
+    let mut by_side: Vec<OfSide> = Vec::new();
     for (c, corners) in chosen.iter().zip(gathered.chunks(3)) {
         let rho = mesh.root_of(&mesh.elements[c.element]).reflectance;
         let difference: Rgb = corners.iter().map(|g| g.irradiance - g.shot).sum();
@@ -57,22 +57,40 @@ pub(super) fn form_factors<E: Executor>(
         let power = exitance * c.stands_for;
         absolute += power.abs();
         common += power;
-        largest = Rgb([0, 1, 2].map(|k| largest[k].max(exitance[k].abs())));
+        largest = larger(largest, exitance.abs());
         match by_side.last_mut() {
-            Some((side, sum)) if *side == c.side => *sum += power,
-            _ => by_side.push((c.side, power)),
+            Some(last) if last.side == c.side => {
+                last.power += power;
+                last.area += c.stands_for;
+            }
+            _ => by_side.push(OfSide { side: c.side, power, area: c.stands_for }),
         }
     }
-    let of_sides: Rgb = by_side.iter().map(|(_, power)| power.abs()).sum();
+    let of_sides: Rgb = by_side.iter().map(|s| s.power.abs()).sum();
+    let worst_side = by_side.iter().map(|s| s.power.abs() / s.area).fold(Rgb::ZERO, larger);
     let back = returning(mesh, solution);
     let spread = Rgb([0, 1, 2].map(|c| common[c].abs() * back[c] / (1.0 - back[c])));
-    let einf = largest.share_of(whole.mean());
+    let relative = |sum: Rgb, most: Rgb| Measured {
+        e1: (sum + spread).share_of(whole.power),
+        einf: most.share_of(whole.mean()),
+    };
     Sampled {
-        triangles: Measured { e1: (of_sides + spread).share_of(whole.power), einf },
-        points: Measured { e1: (absolute + spread).share_of(whole.power), einf },
+        triangles: relative(of_sides, worst_side),
+        points: relative(absolute, largest),
         rows,
         elements: chosen.len(),
     }
+}
+
+/// What the sample's elements on one side of a triangle have in common.
+struct OfSide {
+    side: usize,
+    power: Rgb,
+    area: f64,
+}
+
+fn larger(a: Rgb, b: Rgb) -> Rgb {
+    Rgb([0, 1, 2].map(|c| a[c].max(b[c])))
 }
 
 /// An element of the sample.

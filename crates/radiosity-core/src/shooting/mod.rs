@@ -223,6 +223,21 @@ impl<'a, E: Executor> Shooting<'a, E> {
         }
     }
 
+    /// Shoots each patch that has not shot yet, however little it has: afterwards the bound of
+    /// [`Shooting::remaining`] knows what every point sees. Does nothing where reflectances
+    /// are so low that the bound is tight without that.
+    pub fn complete(&mut self, observer: &mut impl Observer) -> Control {
+        while let Some(shooter) = self.ambient.as_ref().and_then(Ambient::next_waiting) {
+            self.shoot(shooter);
+            self.shots += 1;
+            self.help(shooter);
+            if observer.step(&self.report()) == Control::Stop {
+                return Control::Stop;
+            }
+        }
+        Control::Continue
+    }
+
     /// What the observer hears.
     #[must_use]
     pub fn report(&self) -> StepReport {
