@@ -55,6 +55,13 @@ pub enum Geometry {
         /// How many of the 20 faces are the port: each is a twentieth of the area.
         port_faces: usize,
     },
+    /// A tessellated sphere seen from inside; groups `wall`, `cap`.
+    CappedSphere {
+        /// How often each of the 20 faces of an icosahedron is split in four.
+        level: u32,
+        /// The cap's share of the area, up to half a facet's.
+        share: f64,
+    },
 }
 
 /// A group's name and its triangles.
@@ -91,6 +98,21 @@ impl Geometry {
                     ("inner", scaled(inner).collect()),
                     ("outer", scaled(outer).map(reversed).collect()),
                 ])
+            }
+            Self::CappedSphere { level, share } => {
+                let mut facets: Vec<_> = icosphere(level)?.into_iter().map(reversed).collect();
+                let height = |t: &[DVec3; 3]| (t[0] + t[1] + t[2]).z;
+                facets.sort_by(|a, b| height(b).total_cmp(&height(a)));
+                let area = |t: &[DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]).length();
+                let whole: f64 = facets.iter().map(area).sum();
+                let mut passed = 0.0;
+                let mut in_cap = |t: &[DVec3; 3]| {
+                    passed += area(t);
+                    passed - area(t) / 2.0 < share * whole
+                };
+                let facets_of_cap = facets.iter().take_while(|t| in_cap(t)).count();
+                let wall = facets.split_off(facets_of_cap);
+                Ok(vec![("wall", wall), ("cap", facets)])
             }
             Self::IntegratingSphere { level, port_faces } => {
                 if port_faces > 20 {

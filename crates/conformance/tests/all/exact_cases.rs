@@ -62,37 +62,41 @@ fn exact_solutions() {
         }
     }
     println!("{run} solutions checked, {not_run} not run");
-    assert!(run >= 14, "the data holds more solutions that can be checked: {run}");
+    assert!(run >= 23, "the data holds more solutions that can be checked: {run}");
 }
 
 /// Error and bound, or why it is not run.
 fn check(entry: &Value) -> Result<(f64, f64), &'static str> {
     match entry["kind"].as_str().unwrap() {
-        "solution_white_furnace" => white_furnace(entry),
+        "solution_white_furnace" => Ok(white_furnace(entry)),
         "solution_general_furnace" => Ok(general_furnace(entry)),
         "solution_two_plates" => two_plates(entry),
         "solution_box_face_constant" => one_emitter(entry),
         "solution_concentric_spheres" => Ok(concentric_spheres(entry)),
-        "solution_integrating_sphere" => integrating_sphere(entry),
+        "solution_integrating_sphere" => Ok(integrating_sphere(entry)),
         "solution_cube_nxn_quads_exact_F" => Ok(refined_cube(entry)),
-        _ => Err("one exitance per input triangle, while our triangles are split and vary"),
+        _ => Err(ONE_EACH),
     }
 }
+
+/// Why an entry is not run here.
+const ONE_EACH: &str = "one exitance per surface, while our surfaces are split and vary: \
+                        radiosity-core's tests solve it as a matrix";
+
+/// Rounding of the books, per light shot.
+const ROUNDED: f64 = 1e-15;
 
 const CUBE: Geometry = Geometry::Box { size: [1.0; 3] };
 const FACES: [&str; 6] = ["x0", "x1", "y0", "y1", "z0", "z1"];
 
-fn white_furnace(entry: &Value) -> Result<(f64, f64), &'static str> {
+fn white_furnace(entry: &Value) -> (f64, f64) {
     let rho = number(&entry["rho"]);
-    if rho > 0.99 {
-        return Err("plain shooting needs 6.9 / (1 − ρ) sweeps");
-    }
     let all = surface(rho, number(&entry["E"]));
     let (_, solved) = run(&CUBE, 48, |_| all);
     let b = number(&entry["B"]);
     let elements = solved.solution.elements.iter();
     let worst = elements.map(|e| (e.exitance[0] / b - 1.0).abs()).fold(0.0, f64::max);
-    Ok((worst, EXACT))
+    (worst, EXACT)
 }
 
 fn general_furnace(entry: &Value) -> (f64, f64) {
@@ -109,7 +113,7 @@ fn general_furnace(entry: &Value) -> (f64, f64) {
 fn two_plates(entry: &Value) -> Result<(f64, f64), &'static str> {
     let f = number(&entry["F12"]);
     let (gap, bound) = match f {
-        1.0 => return Err("plates without end"),
+        1.0 => return Err("plates without end, which radiosity-core's tests solve as a matrix"),
         f if (0.19..0.21).contains(&f) => (1.0, ONE_PER_FACE),
         _ => (1e-3, THIN_GAP),
     };
@@ -119,12 +123,8 @@ fn two_plates(entry: &Value) -> Result<(f64, f64), &'static str> {
 }
 
 fn one_emitter(entry: &Value) -> Result<(f64, f64), &'static str> {
-    let bright = number(&entry["rho"][0]) > 0.9;
     match entry["id"].as_str().unwrap() {
-        id if !id.starts_with("cube_one_emitter") => {
-            Err("one exitance per face, and no refined answer that says how far light varies")
-        }
-        _ if bright => Err("plain shooting needs 6.9 / (1 − ρ) sweeps"),
+        id if !id.starts_with("cube_one_emitter") => Err(ONE_EACH),
         _ => {
             let of = by_group(entry, &FACES);
             let exact = |i| number(&entry["B"][i]);
@@ -161,17 +161,20 @@ fn concentric_spheres(entry: &Value) -> (f64, f64) {
     (means_error(&geometry, elements, by_group(entry, &names), &names, exact), FACETS)
 }
 
-fn integrating_sphere(entry: &Value) -> Result<(f64, f64), &'static str> {
+fn integrating_sphere(entry: &Value) -> (f64, f64) {
+    let rho = number(&entry["rho"]);
     let share = number(&entry["port_fraction"]);
-    let faces = share * 20.0;
-    if share == 0.0 || faces.fract() > 1e-9 {
-        return Err("the port is not whole faces of an icosahedron");
+    // Facets of half a per cent of the area make any share to a quarter of a per cent.
+    let geometry = |share| Geometry::CappedSphere { level: 2, share };
+    if share == 0.0 {
+        let of = |group: &str| surface(rho, f64::from(u8::from(group == "cap")));
+        let exact = |i: usize| number(&entry[["B_off_cap", "B_on_cap"][i]]);
+        return (means_error(&geometry(0.1), 320, of, &["wall", "cap"], exact), FACETS);
     }
-    let wall = surface(number(&entry["rho"]), number(&entry["E_wall"]));
+    let wall = surface(rho, number(&entry["E_wall"]));
     let of = |group: &str| if group == "wall" { wall } else { surface(0.0, 0.0) };
-    let geometry = Geometry::IntegratingSphere { level: 1, port_faces: faces as usize };
     let exact = |_| number(&entry["B_wall"]);
-    Ok((means_error(&geometry, 80, of, &["wall"], exact), FACETS))
+    (means_error(&geometry(share), 320, of, &["wall"], exact), FACETS)
 }
 
 /// E1 of the groups' area means: Σ A·|B − B*| / Σ A·B*.
@@ -220,7 +223,10 @@ fn run(geometry: &Geometry, elements: usize, of: impl Fn(&str) -> Surface) -> (S
     let scene = scene.unwrap();
     let solved = solve(&scene, elements, ShootingConfig::until(UNSHOT), Engine::FIRST).unwrap();
     let imbalance = solved.ledger.imbalance();
-    assert!(imbalance < BALANCED, "{geometry:?}: {imbalance:e}");
+    // Of all the light that is shot, 1 / (1 − ρ) times what is emitted, some roundings.
+    let used = scene.ids().map(|id| scene.material_of(id).reflectance.max_channel());
+    let shot = 1.0 / (1.0 - used.fold(0.0, f64::max));
+    assert!(imbalance < BALANCED.max(ROUNDED * shot), "{geometry:?}: {imbalance:e}");
     (scene, solved)
 }
 
