@@ -16,10 +16,14 @@ pub enum Exchange {
 /// How a scene becomes elements and patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MeshConfig {
-    /// Number of elements to split into; the scene's own triangles are the least.
+    /// Number of elements to split into; the scene's own triangles, in the pieces that
+    /// they are cut into, are the least.
     pub elements: usize,
     /// A patch, the unit of shooting, holds at most this many elements.
     pub patch_elements: usize,
+    /// Whether triangles are cut where others touch or cross them, so that no element lies on
+    /// both sides of a wall.
+    pub cut: bool,
 }
 
 impl MeshConfig {
@@ -27,7 +31,7 @@ impl MeshConfig {
     /// it, so that a sweep of shots costs `elements`^1.5 rather than its square.
     #[must_use]
     pub fn with_elements(elements: usize) -> Self {
-        Self { elements, patch_elements: patch_size(elements) }
+        Self { elements, patch_elements: patch_size(elements), cut: true }
     }
 }
 

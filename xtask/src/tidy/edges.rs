@@ -46,7 +46,7 @@ const RULES: [Rule; 11] = [
     Rule { member: "scene", normal: &[], dev: &[] },
     Rule { member: "accel", normal: &[], dev: &[] },
     Rule { member: "scene-import", normal: &["scene", "tri-io"], dev: &[] },
-    Rule { member: "form-factor", normal: &["accel"], dev: &[] },
+    Rule { member: "form-factor", normal: &[], dev: &[] },
     Rule { member: "radiosity-core", normal: &["accel", "form-factor", "scene"], dev: &[] },
     Rule { member: "radiosity-par", normal: &["radiosity-core"], dev: &["accel", "scene"] },
     Rule { member: "output", normal: &["scene", "tri-io"], dev: &[] },

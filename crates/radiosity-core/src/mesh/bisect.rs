@@ -1,25 +1,25 @@
 //! Longest-edge bisection: halve the longest edge of the mesh until there are enough elements.
 
 use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::{BinaryHeap, HashMap, HashSet};
 
 use glam::DVec3;
 use scene::VertexId;
 
 use super::Node;
-
-type Edge = (VertexId, VertexId);
+use super::cut::{Edge, edge};
 
 /// Grows the forest over the given roots to about `elements` leaves: stops when the next
-/// edge would leave more than that.
+/// edge would leave more than that. Halves of barriers are barriers.
 pub(super) fn forest(
     vertices: Vec<DVec3>,
     roots: Vec<[VertexId; 3]>,
+    barriers: HashSet<Edge>,
     elements: usize,
-) -> (Vec<DVec3>, Vec<Node>) {
-    let mut grower = Grower::new(vertices, roots);
+) -> (Vec<DVec3>, Vec<Node>, HashSet<Edge>) {
+    let mut grower = Grower::new(vertices, roots, barriers);
     while grower.leaves < elements && grower.halve_longest(elements) {}
-    (grower.vertices, grower.nodes)
+    (grower.vertices, grower.nodes, grower.barriers)
 }
 
 struct Grower {
@@ -30,6 +30,8 @@ struct Grower {
     at_edge: HashMap<Edge, Vec<u32>>,
     /// Edges by length, the longest first; ties go to the smallest vertices.
     queue: BinaryHeap<(Length, Reverse<Edge>)>,
+    /// Edges along contacts.
+    barriers: HashSet<Edge>,
 }
 
 /// A squared length, ordered: never NaN, since vertices are finite.
@@ -51,17 +53,18 @@ impl Ord for Length {
 }
 
 fn edges([a, b, c]: [VertexId; 3]) -> [Edge; 3] {
-    [(a, b), (b, c), (c, a)].map(|(p, q)| (p.min(q), p.max(q)))
+    [edge(a, b), edge(b, c), edge(c, a)]
 }
 
 impl Grower {
-    fn new(vertices: Vec<DVec3>, roots: Vec<[VertexId; 3]>) -> Self {
+    fn new(vertices: Vec<DVec3>, roots: Vec<[VertexId; 3]>, barriers: HashSet<Edge>) -> Self {
         let mut grower = Self {
             vertices,
             nodes: Vec::with_capacity(2 * roots.len()),
             leaves: roots.len(),
             at_edge: HashMap::new(),
             queue: BinaryHeap::new(),
+            barriers,
         };
         for (root, corners) in roots.into_iter().enumerate() {
             grower.add(corners, root as u32);
@@ -79,6 +82,10 @@ impl Grower {
         let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
         let middle = VertexId::from(self.vertices.len());
         self.vertices.push(p.midpoint(q));
+        if self.barriers.remove(&edge) {
+            // A new vertex is greater than all before.
+            self.barriers.extend([(edge.0, middle), (edge.1, middle)]);
+        }
         for leaf in leaves {
             self.bisect(leaf, edge, middle);
         }

@@ -1,7 +1,8 @@
-//! The scene's triangles as a forest of bisected triangles: roots are input triangles,
-//! patches shoot, leaves (elements) receive.
+//! The scene's triangles as a forest of bisected triangles: roots are input triangles, cut where
+//! others touch or cross them; patches shoot, leaves (elements) receive.
 
 mod bisect;
+mod cut;
 mod patch;
 mod points;
 mod weld;
@@ -14,8 +15,10 @@ use scene::{Face, Rgb, Scene, TriangleId, VertexId};
 use crate::config::MeshConfig;
 pub(crate) use patch::bounding;
 pub use points::ReceiverPoint;
+use weld::Roots;
 
-/// A root: one lit side of an input triangle, with what its elements have in common.
+/// A root: one lit side of an input triangle, or of a piece of one that contacts cut, with what
+/// its elements have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Root {
     /// The input triangle.
@@ -86,19 +89,24 @@ pub struct Mesh {
 impl Mesh {
     /// Splits a scene's triangles into about `config.elements` elements.
     ///
+    /// First, where `config.cut` says so, triangles are cut along the segments in which others
+    /// touch or cross them before a lit side, so that no element lies on both sides of a wall,
+    /// or partly under a box. Triangles that nothing touches stay as they are.
+    ///
     /// The longest edge of the whole mesh is halved, in all triangles that share it, until
     /// there are enough elements: so no split leaves a T-vertex, and the smallest angle
     /// stays at least half of what it was (Rosenberg & Stenger 1975). Triangles without
     /// area, and exact duplicates of earlier ones, have no elements. Time N·log N.
     #[must_use]
     pub fn from_scene(scene: &Scene, config: &MeshConfig) -> Self {
-        let (vertices, roots, corners) = weld::roots(scene);
         let extent = scene.bounds().map_or(0.0, |(low, high)| (high - low).length());
-        let (vertices, nodes) = bisect::forest(vertices, corners, config.elements);
+        let Roots { vertices, roots, corners, barriers } = weld::roots(scene, config.cut, extent);
+        let (vertices, nodes, barriers) =
+            bisect::forest(vertices, corners, barriers, config.elements);
         let mut mesh = Self { vertices, roots, nodes, extent, ..Self::default() };
         patch::number_elements(&mut mesh);
         patch::choose(&mut mesh, config.patch_elements.max(1));
-        points::place(&mut mesh);
+        points::place(&mut mesh, &barriers);
         mesh
     }
 
@@ -108,7 +116,8 @@ impl Mesh {
         &self.vertices
     }
 
-    /// The lit sides of the input triangles.
+    /// The lit sides of the input triangles, in their order, the front before the back; each in
+    /// one piece or several.
     #[must_use]
     pub fn roots(&self) -> &[Root] {
         &self.roots

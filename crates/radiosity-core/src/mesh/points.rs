@@ -1,20 +1,24 @@
 //! Receiver points: where the irradiance is computed, shared by coplanar neighbours.
 //!
 //! The elements around a vertex fall into sectors. Two neighbours are in one sector when
-//! they are coplanar, face the same way, and no other surface meets the edge between them:
+//! they are coplanar, face the same way, and no other surface meets the edge between them
+//! (which is then a barrier, or an edge of that surface):
 //! on the two sides of a wall that stands on a floor the light differs, so the floor has a
 //! point on each side of it. A point whose sector does not surround the vertex moves a
 //! little into the sector, off the rim where visibility and form factors are undecided.
 
-use std::f64::consts::TAU;
+use std::collections::HashSet;
+use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
+use scene::VertexId;
 
 use super::Mesh;
+use super::cut::{Edge, edge};
 
 /// Neighbours whose normals are closer than this angle, in radians, are coplanar: far above
 /// the rounding of f64 normals, far below any crease one could see.
-const COPLANAR_ANGLE: f64 = 1e-5;
+pub(super) const COPLANAR_ANGLE: f64 = 1e-5;
 
 /// How far a point on a rim moves into its sector, as a share of the way to the mean
 /// centroid of its elements: 1 % of an element, far above the rounding of f32 rays at
@@ -43,7 +47,7 @@ struct Corner {
 }
 
 /// Places the points, numbered in the order in which the elements first use them.
-pub(super) fn place(mesh: &mut Mesh) {
+pub(super) fn place(mesh: &mut Mesh, barriers: &HashSet<Edge>) {
     const NONE: u32 = u32::MAX;
     let (starts, corners) = corners_by_vertex(mesh);
     // Sector leader of each element corner.
@@ -52,7 +56,7 @@ pub(super) fn place(mesh: &mut Mesh) {
     let mut sectors = Sectors::default();
     for vertex in 0..mesh.vertices.len() {
         let at = &corners[starts[vertex] as usize..starts[vertex + 1] as usize];
-        sectors.find(mesh, at);
+        sectors.find(mesh, at, vertex as u32, barriers);
         for (i, corner) in at.iter().enumerate() {
             let first = at[sectors.leader(i)];
             leader[corner.element as usize][corner.which as usize] =
@@ -104,10 +108,12 @@ struct Sectors {
     parent: Vec<usize>,
     /// (the edge's far vertex, corner), sorted.
     spokes: Vec<(u32, usize)>,
+    /// How far each sector turns, at its leader.
+    turns: Vec<f64>,
 }
 
 impl Sectors {
-    fn find(&mut self, mesh: &Mesh, at: &[Corner]) {
+    fn find(&mut self, mesh: &Mesh, at: &[Corner], vertex: u32, barriers: &HashSet<Edge>) {
         self.parent.clear();
         self.parent.extend(0..at.len());
         self.spokes.clear();
@@ -119,10 +125,37 @@ impl Sectors {
         }
         self.spokes.sort_unstable();
         let spokes = std::mem::take(&mut self.spokes);
+        let mut bounded = false;
         for group in spokes.chunk_by(|a, b| a.0 == b.0) {
-            self.join_across(mesh, at, group);
+            let spoke = edge(VertexId(vertex), VertexId(group[0].0));
+            if !barriers.is_empty() && barriers.contains(&spoke) {
+                bounded = true;
+            } else {
+                self.join_across(mesh, at, group);
+            }
         }
         self.spokes = spokes;
+        if bounded {
+            self.part_around_tips(mesh, at);
+        }
+    }
+
+    /// Parts the sectors that reach more than half around the vertex, which is the tip of
+    /// something: there, light depends on the direction in which one comes near, as some of
+    /// the elements lie before a face that others lie beside.
+    fn part_around_tips(&mut self, mesh: &Mesh, at: &[Corner]) {
+        self.turns.clear();
+        self.turns.resize(at.len(), 0.0);
+        for (i, corner) in at.iter().enumerate() {
+            let leader = self.leader(i);
+            self.turns[leader] += angle(mesh, *corner);
+        }
+        let leaders: Vec<usize> = (0..at.len()).map(|i| self.leader(i)).collect();
+        for (i, leader) in leaders.into_iter().enumerate() {
+            if self.turns[leader] > PI + FULL_TURN_SLACK {
+                self.parent[i] = i;
+            }
+        }
     }
 
     /// Joins the corners on the two sides of one edge, unless another surface meets it.
@@ -162,6 +195,13 @@ impl Sectors {
     }
 }
 
+/// The angle of an element at a corner.
+fn angle(mesh: &Mesh, corner: Corner) -> f64 {
+    let p = mesh.corners(mesh.elements[corner.element as usize].vertices);
+    let k = corner.which as usize;
+    (p[(k + 1) % 3] - p[k]).angle_between(p[(k + 2) % 3] - p[k])
+}
+
 fn position<'a>(
     mesh: &Mesh,
     vertex: DVec3,
@@ -174,8 +214,7 @@ fn position<'a>(
     for corner in sector {
         let element = &mesh.elements[corner.element as usize];
         let p = mesh.corners(element.vertices);
-        let k = corner.which as usize;
-        turn += (p[(k + 1) % 3] - p[k]).angle_between(p[(k + 2) % 3] - p[k]);
+        turn += angle(mesh, *corner);
         weighted += ((p[0] + p[1] + p[2]) / 3.0 - vertex) * element.area;
         area += element.area;
         owner.get_or_insert(element.root);

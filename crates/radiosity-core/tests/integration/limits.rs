@@ -3,7 +3,7 @@
 use radiosity_core::{Correction, Mesh, MeshConfig, ShootingConfig, StopReason, StopRule};
 use scene::Rgb;
 
-use crate::models::{Model, solve, until};
+use crate::models::{Model, solve, solve_mesh, until};
 
 #[test]
 fn empty_scene_has_an_empty_solution() {
@@ -172,7 +172,8 @@ fn no_darkness_creeps_out_from_under_a_box() {
     model.quad([p(1., 1., 0.), p(-1., 1., 0.), p(-1., 1., 1.), p(1., 1., 1.)], side);
     model.quad([p(-1., 1., 0.), p(-1., -1., 0.), p(-1., -1., 1.), p(-1., 1., 1.)], side);
     let scene = model.scene();
-    let solved = solve(&scene, 4000, until(1e-3));
+    let config = MeshConfig { cut: false, ..MeshConfig::with_elements(4000) };
+    let solved = solve_mesh(&scene, &Mesh::from_scene(&scene, &config), until(1e-3));
     let inside = |v: glam::DVec3| v.x.abs() < r && v.y.abs() < r;
     let mut straddling = 0;
     for element in solved.solution.elements.iter().filter(|e| e.triangle.0 < 2) {

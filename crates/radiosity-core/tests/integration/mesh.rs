@@ -109,7 +109,7 @@ fn two_sided_surfaces_have_elements_back_to_back() {
 
 #[test]
 fn patches_cover_all_elements_in_order() {
-    let config = MeshConfig { elements: 1000, patch_elements: 10 };
+    let config = MeshConfig { patch_elements: 10, ..MeshConfig::with_elements(1000) };
     let mesh = Mesh::from_scene(&cube(), &config);
     let mut next = 0;
     for patch in mesh.patches() {

@@ -77,11 +77,14 @@ pub(crate) struct Solved {
 }
 
 pub(crate) fn solve(scene: &Scene, elements: usize, config: ShootingConfig) -> Solved {
+    solve_mesh(scene, &Mesh::from_scene(scene, &MeshConfig::with_elements(elements)), config)
+}
+
+pub(crate) fn solve_mesh(scene: &Scene, mesh: &Mesh, config: ShootingConfig) -> Solved {
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
     let bvh = Bvh::build(&triangles, &BvhConfig::default());
-    let mesh = Mesh::from_scene(scene, &MeshConfig::with_elements(elements));
-    let census = Census::take(scene, &mesh, &bvh, config.exchange, &Sequential);
-    let mut shooting = Shooting::new(&mesh, &bvh, &census, &Sequential, config);
+    let census = Census::take(scene, mesh, &bvh, config.exchange, &Sequential);
+    let mut shooting = Shooting::new(mesh, &bvh, &census, &Sequential, config);
     let reason = shooting.run(&mut ());
     Solved {
         solution: shooting.solution(),
