@@ -3,6 +3,9 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "xtask is a terminal program")]
 
 mod ci;
+mod figure;
+mod numerics;
+mod precision;
 mod scenes;
 mod tidy;
 
@@ -31,6 +34,11 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Measure error against time on the scenes with a reference, and draw it into
+    /// docs/precision.
+    Precision(precision::Arguments),
+    /// Measure estimators and sweeps, and draw the figures of docs/numerics.md.
+    Numerics(numerics::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -40,6 +48,8 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(&root),
         Task::Scenes { check: true } => scenes::check(&root.join("scenes")),
         Task::Scenes { check: false } => scenes::write(&root.join("scenes")),
+        Task::Precision(arguments) => precision::run(&root, &arguments),
+        Task::Numerics(arguments) => numerics::run(&root, &arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
