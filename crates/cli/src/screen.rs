@@ -52,13 +52,20 @@ pub(crate) fn statement(statement: Option<&Statement>) {
         share(points.e1.total()),
         share(points.einf.total())
     ));
+    let [least, most] = statement.rows;
+    if statement.sample > 0 {
+        say(&format!(
+            "       form factors sum to {least:.6} to {most:.6} in {} sampled elements; 1 if closed",
+            statement.sample
+        ));
+    }
     if let Some(probes) = &statement.probes {
         say(&format!("       at the probes {}", parts(&probes.e1)));
     }
     if triangles.e1.mesh.is_infinite() {
         warning(
-            "one mesh says nothing of its own error: ask for --elements of at least one and a \
-             half times the scene's triangles, or for --error",
+            "one mesh says nothing of its own error: ask for more --elements, at least one and a \
+             half times as many as the scene's own triangles make, or for --error",
         );
     }
 }

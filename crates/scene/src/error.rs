@@ -23,6 +23,8 @@ pub enum ErrorKind {
     UnknownId(&'static str, u32),
     /// A triangle uses a vertex with a coordinate that is not finite.
     NonFiniteVertex(u32),
+    /// A triangle uses a vertex with a coordinate beyond [`crate::MOST_COORDINATE`].
+    FarVertex(u32),
 }
 
 impl Error {
@@ -57,6 +59,11 @@ impl fmt::Display for Error {
             ErrorKind::NonFiniteVertex(id) => {
                 write!(f, "{place}: vertex {id} has a coordinate that is not finite")
             }
+            ErrorKind::FarVertex(id) => write!(
+                f,
+                "{place}: vertex {id} has a coordinate beyond {:.0e}; use a larger unit of length",
+                crate::MOST_COORDINATE
+            ),
         }
     }
 }

@@ -14,5 +14,5 @@ pub use error::{Error, ErrorKind};
 pub use ids::{GroupId, MaterialId, TriangleId, VertexId};
 pub use material::{Material, Sides};
 pub use rgb::Rgb;
-pub use scene::{Scene, SceneBuilder, Triangle};
+pub use scene::{MOST_COORDINATE, Scene, SceneBuilder, Triangle};
 pub use solution::{Face, Solution, SolutionElement};

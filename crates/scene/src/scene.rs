@@ -15,6 +15,10 @@ pub struct Triangle {
     pub group: GroupId,
 }
 
+/// The largest coordinate, in any unit: fourth powers of distances must stay in the range of
+/// f64.
+pub const MOST_COORDINATE: f64 = 1e75;
+
 /// A checked triangle scene: every id resolves, every coordinate is finite, every
 /// reflectance lies in [0, 1]. Triangles keep their file order; one without area stays
 /// in its place, and neither emits, receives nor blocks.
@@ -147,7 +151,8 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// [`ErrorKind::UnknownId`] for an id this builder never gave out;
-    /// [`ErrorKind::NonFiniteVertex`] for a vertex with a coordinate that is not finite.
+    /// [`ErrorKind::NonFiniteVertex`] for a vertex with a coordinate that is not finite;
+    /// [`ErrorKind::FarVertex`] for one beyond [`MOST_COORDINATE`].
     pub fn triangle(
         &mut self,
         vertices: [VertexId; 3],
@@ -161,6 +166,9 @@ impl SceneBuilder {
             match scene.vertices.get(v.index()) {
                 None => return fail(ErrorKind::UnknownId("vertex", v.0)),
                 Some(p) if !p.is_finite() => return fail(ErrorKind::NonFiniteVertex(v.0)),
+                Some(p) if p.abs().max_element() > MOST_COORDINATE => {
+                    return fail(ErrorKind::FarVertex(v.0));
+                }
                 Some(_) => {}
             }
         }

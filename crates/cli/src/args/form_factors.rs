@@ -33,7 +33,9 @@ pub(crate) struct FormFactorsArgs {
     #[arg(short, long, value_name = "F.csv", required = true)]
     pub(crate) output: Vec<PathBuf>,
 
-    /// Error asked of the form factor between two triangles, as a share of it: 1e-10 to 1
+    /// Error asked of the form factor between two triangles, as a share of it, or of 1 / N of N
+    /// triangles if something may stand in between and that is more; so each row is right to
+    /// twice this share: 1e-10 to 1
     #[arg(long, value_name = "X", default_value = "1e-3", value_parser = share)]
     pub(crate) tolerance: f64,
 

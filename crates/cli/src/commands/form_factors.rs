@@ -131,9 +131,11 @@ fn say_found(computed: &Computed, raw: &Defects, reciprocity: f64) {
     let matrix = &computed.matrix;
     let name = |row: usize| &matrix.names()[row];
     say(&format!(
-        "{} pairs of triangles, {} of them exchange light; {} integrand values",
+        "{} pairs of triangles, {} of them exchange light; visibility computed for {}; {} integrand \
+         values",
         count(computed.pairs),
         count(computed.lit),
+        count(computed.visibility),
         count(computed.effort)
     ));
     let worst = raw.worst();

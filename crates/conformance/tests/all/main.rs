@@ -10,8 +10,9 @@ mod form_factors;
 mod laws;
 mod reference;
 mod scenes;
-mod stiff_and_large;
+mod stiff;
 mod tilted;
+mod verified;
 
 /// Largest share of the emitted power that a ledger may lose or make: rounding of f64 sums
 /// of a million terms, far below any error that a bug would make.

@@ -1,6 +1,6 @@
 //! A matrix from geometry: each pair once, rows spread over an executor.
 
-use form_factor::{Occluders, between, between_occluded};
+use form_factor::{Ask, Occluders, between, between_occluded_within};
 
 use super::{Entry, Matrix, Surfaces, sum};
 use crate::energy::Sum;
@@ -9,7 +9,9 @@ use crate::executor::Executor;
 /// How a matrix is computed.
 #[derive(Clone, Copy, Debug)]
 pub struct ComputeConfig<'a> {
-    /// Error asked of each form factor between two polygons, absolute.
+    /// Error asked of each form factor between two polygons: this share of it or, where something
+    /// may stand in between, this share of 1 / N, N being the number of polygons, if that is more.
+    /// So a row, whose form factors sum to at most 1, is off by at most twice the tolerance.
     pub tolerance: f64,
     /// What may block the view; `None` where nothing does, as in a convex enclosure.
     pub occluders: Option<&'a Occluders>,
@@ -24,6 +26,8 @@ pub struct Computed {
     pub pairs: u64,
     /// Pairs between which light goes.
     pub lit: u64,
+    /// Pairs between which something may stand, so that visibility had to be computed.
+    pub visibility: u64,
     /// Integrand values taken.
     pub effort: u64,
 }
@@ -36,6 +40,9 @@ pub struct Computed {
 /// F_GH = Σ A_i F_ij / A_G over the polygons i of G and j of H, and the error is the sum of
 /// theirs, which is on the safe side. Every executor gives the same bits.
 ///
+/// Errors may exceed what [`ComputeConfig::tolerance`] asks where rounding or the effort spent on
+/// one pair denies it; [`Matrix::errors`] says so in every case.
+///
 /// Time: N²/2 pairs of N polygons. Memory while computing: 24 bytes for each polygon and each
 /// row that it sees.
 #[must_use]
@@ -44,10 +51,11 @@ pub fn compute(surfaces: &Surfaces, config: &ComputeConfig, executor: &impl Exec
         (0..surfaces.polygons()).map(|from| Shot { from, ..Shot::default() }).collect();
     executor.for_each(&mut shots, |shot| shot.fill(surfaces, config));
     let count = |of: fn(&Shot) -> u64| shots.iter().map(of).sum();
-    let (lit, effort) = (count(|s| s.lit), count(|s| s.effort));
+    let (lit, visibility) = (count(|s| s.lit), count(|s| s.visibility));
+    let effort = count(|s| s.effort);
     let n = surfaces.polygons() as u64;
     let pairs = n * n.saturating_sub(1) / 2;
-    Computed { matrix: assemble(surfaces, &shots), pairs, lit, effort }
+    Computed { matrix: assemble(surfaces, &shots), pairs, lit, visibility, effort }
 }
 
 /// What one polygon exchanges with those after it.
@@ -57,6 +65,7 @@ struct Shot {
     /// Exchange areas A F by the other's row, ascending.
     exchange: Vec<Exchange>,
     lit: u64,
+    visibility: u64,
     effort: u64,
 }
 
@@ -72,12 +81,15 @@ impl Shot {
     fn fill(&mut self, surfaces: &Surfaces, config: &ComputeConfig) {
         let a = &surfaces.polygons[self.from];
         let mut found = Vec::new();
+        let relative = config.tolerance;
+        let ask = Ask { relative, absolute: relative / surfaces.polygons() as f64 };
         for (b, row) in surfaces.polygons.iter().zip(&surfaces.rows).skip(self.from + 1) {
             let estimate = match config.occluders {
-                Some(occluders) => between_occluded(a, b, occluders, config.tolerance),
-                None => between(a, b, config.tolerance),
+                Some(occluders) => between_occluded_within(a, b, occluders, ask),
+                None => between(a, b, relative),
             };
             self.effort += u64::from(estimate.effort);
+            self.visibility += u64::from(estimate.visibility);
             self.lit += u64::from(estimate.value > 0.0);
             if estimate.value > 0.0 || estimate.error > 0.0 {
                 let (area, error) = (a.area() * estimate.value, a.area() * estimate.error);

@@ -11,6 +11,7 @@
 //! contacts are therefore named as *barriers*, across which receiver points are not shared.
 
 mod contact;
+mod drawing;
 mod face;
 mod pairs;
 mod places;

@@ -99,7 +99,7 @@ impl Mesh {
     /// area, and exact duplicates of earlier ones, have no elements. Time N·log N.
     #[must_use]
     pub fn from_scene(scene: &Scene, config: &MeshConfig) -> Self {
-        let extent = scene.bounds().map_or(0.0, |(low, high)| (high - low).length());
+        let extent = weld::extent(scene);
         let Roots { vertices, roots, corners, barriers } = weld::roots(scene, config.cut, extent);
         let (vertices, nodes, barriers) =
             bisect::forest(vertices, corners, barriers, config.elements);
@@ -141,7 +141,8 @@ impl Mesh {
         &self.points
     }
 
-    /// The diagonal of the scene's bounds: the length that tolerances are relative to.
+    /// The diagonal of the bounds of all triangles with area: the length that tolerances are
+    /// relative to.
     #[must_use]
     pub fn extent(&self) -> f64 {
         self.extent

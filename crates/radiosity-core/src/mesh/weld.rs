@@ -12,6 +12,10 @@ use super::cut::{self, Cut, Edge, Surface};
 /// usable normal: f64 corners are rounded to about 1e-16 of their size.
 const LEAST_HEIGHT: f64 = 1e-12;
 
+/// A triangle with no edge as long as this, in the scene's unit, counts as a point: fourth
+/// powers of distances must stay in the range of f64.
+const LEAST_EDGE: f64 = 1e-75;
+
 /// The lit sides of the triangles, in pieces.
 pub(super) struct Roots {
     pub(super) vertices: Vec<DVec3>,
@@ -123,11 +127,24 @@ fn turned([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
     }
 }
 
+/// The diagonal of the bounds of all triangles that take part.
+pub(super) fn extent(scene: &Scene) -> f64 {
+    let taking_part = scene.ids().map(|id| scene.corners(id)).filter(|p| unit_normal(*p).is_some());
+    let bounds = taking_part.flatten().fold(None, |bounds: Option<(DVec3, DVec3)>, p| {
+        let (low, high) = bounds.unwrap_or((p, p));
+        Some((low.min(p), high.max(p)))
+    });
+    bounds.map_or(0.0, |(low, high)| (high - low).length())
+}
+
 pub(super) fn unit_normal([a, b, c]: [DVec3; 3]) -> Option<DVec3> {
     let longest =
         (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
     // Scaled to unit size first: areas of tiny or huge scenes leave the range of f64.
     let scale = longest.sqrt();
+    if scale < LEAST_EDGE {
+        return None;
+    }
     let cross = ((b - a) / scale).cross((c - a) / scale);
     let height = cross.length();
     (height > LEAST_HEIGHT).then(|| cross / height)

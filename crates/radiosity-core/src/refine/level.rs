@@ -20,6 +20,10 @@ use crate::shooting::{Shooting, StopReason};
 /// Share of the asked error that unshot light may take.
 const ITERATION_SHARE: f64 = 0.1;
 
+/// What the bound may be on the first level, whatever is asked: its mesh errs by more, and no
+/// statement can come of it alone.
+const FIRST_ITERATION: f64 = 5e-3;
+
 /// How often the unshot share is lowered before the bound is taken as it is.
 const MOST_TIGHTENINGS: u32 = 12;
 
@@ -53,7 +57,12 @@ pub(super) struct Setting<'a, E: Executor> {
 impl<E: Executor> Setting<'_, E> {
     /// Splits the scene, and shoots until what is unshot no longer matters or the observer
     /// says stop.
-    pub(super) fn level(&self, elements: usize, observer: &mut impl Observer) -> Level {
+    pub(super) fn level(
+        &self,
+        elements: usize,
+        first: bool,
+        observer: &mut impl Observer,
+    ) -> Level {
         let (scene, executor) = (self.scene, self.executor);
         let mesh = Mesh::from_scene(scene, &MeshConfig::with_elements(elements));
         let census = Census::take(scene, &mesh, self.bvh, self.config.exchange, executor);
@@ -62,7 +71,7 @@ impl<E: Executor> Setting<'_, E> {
         let mut shooting =
             Shooting::with_probes(&mesh, occluder, &census, executor, config, &receivers);
         let counted = Counted::of(&mesh);
-        let reason = self.shoot(&mesh, &mut shooting, counted, observer);
+        let reason = self.shoot(&mesh, &mut shooting, counted, first, observer);
         let solution = shooting.solution();
         let whole = Sides::of(scene, &mesh, &solution, counted);
         let remaining = shooting.remaining();
@@ -99,10 +108,11 @@ impl<E: Executor> Setting<'_, E> {
         mesh: &Mesh,
         shooting: &mut Shooting<'_, E>,
         counted: Counted,
+        first: bool,
         observer: &mut impl Observer,
     ) -> StopReason {
         let Asked::Error(target) = self.asked else { return shooting.run(observer) };
-        let most = ITERATION_SHARE * target;
+        let most = (ITERATION_SHARE * target).max(if first { FIRST_ITERATION } else { 0.0 });
         let mut unshot = most;
         for _ in 0..MOST_TIGHTENINGS {
             shooting.tighten(unshot);

@@ -14,7 +14,7 @@ mod surface;
 use accel::{Bvh, Occluder};
 use scene::{Rgb, Scene, Solution};
 
-use crate::config::ShootingConfig;
+use crate::config::{MeshConfig, ShootingConfig};
 use crate::energy::Ledger;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
@@ -169,9 +169,10 @@ impl<E: Executor> Ladder<'_, E> {
         match self.setting.asked {
             Asked::Error(_) => coarsest,
             Asked::Unstated(n) => n,
-            // Two levels below the asked one, as far as the scene's own triangles allow.
+            // Two levels below the asked one, as far as the scene's own pieces allow.
             Asked::Elements(n) => {
-                let least = self.setting.scene.triangles().len();
+                let least = Mesh::from_scene(self.setting.scene, &MeshConfig::with_elements(1));
+                let least = least.elements().len();
                 let start = n as f64 / (GROWTH * GROWTH);
                 let coarser = n as f64 / GROWTH;
                 if start >= least as f64 {
@@ -226,7 +227,7 @@ impl<E: Executor> Ladder<'_, E> {
     fn solve(&mut self, elements: usize, observer: &mut impl Observer) -> Level {
         let base = self.base;
         let mut relay = |step: &StepReport| observer.step(&base.and(step));
-        let level = self.setting.level(elements, &mut relay);
+        let level = self.setting.level(elements, self.done.is_none(), &mut relay);
         self.base = base.and(&level.work);
         level
     }

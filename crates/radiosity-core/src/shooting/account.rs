@@ -51,21 +51,22 @@ impl<E: Executor> Shooting<'_, E> {
         }
     }
 
-    /// Where a uniform exitance ρ of all elements would be lost, as the census samples it.
-    pub(super) fn uniform_loss(&self) -> Lost {
+    /// Where an exitance ρ of all elements, times the factor of their patch, is lost, as the
+    /// census samples it.
+    pub(super) fn uniform_loss(&self, factors: &[Rgb]) -> Lost {
         let k = sides(self.config.exchange);
         let reflectance: Vec<Rgb> =
             self.mesh.elements.iter().map(|e| self.mesh.root_of(e).reflectance).collect();
         let mut all = Lost::default();
-        for (i, patch) in self.mesh.patches.iter().enumerate() {
+        for (i, (patch, &factor)) in self.mesh.patches.iter().zip(factors).enumerate() {
             let power: Rgb = patch
                 .elements
                 .clone()
                 .map(|e| reflectance[e as usize] * (self.mesh.elements[e as usize].area * k))
                 .sum();
             let lost = self.census.lost(i, power, &reflectance);
-            all.wrong_side += lost.wrong_side;
-            all.escaped += lost.escaped;
+            all.wrong_side += lost.wrong_side * factor;
+            all.escaped += lost.escaped * factor;
         }
         all
     }

@@ -5,7 +5,8 @@
 //! exitance ρ everywhere, an irradiance h = Kρ arrives. So the unshot light u can be traded for
 //! a·ρ of shot light, with a such that no unshot power is left in sum, and what remains to be
 //! shot is the uneven rest, of either sign (an ambient term as in Cohen, Chen, Wallace &
-//! Greenberg 1988, but exact: deflation with one vector).
+//! Greenberg 1988, but exact: deflation with one vector for each part of the scene that light
+//! joins, so that none gets to where it cannot go).
 
 use scene::Rgb;
 
@@ -41,6 +42,12 @@ pub(super) struct Ambient {
     pub(super) rows: Vec<f64>,
     /// Σρ·F·V over the same patches.
     pub(super) reflected: Vec<Rgb>,
+    /// The patch of each of the mesh's points, or one of them.
+    patch_of: Vec<u32>,
+    /// A patch that each receiver sees, once one is known.
+    sees: Vec<Option<u32>>,
+    /// Patches that light joins: a forest that leads to one patch of each part of the scene.
+    joined: Vec<u32>,
     /// Patches that have not shot yet.
     waiting: Vec<bool>,
     left: usize,
@@ -50,17 +57,29 @@ pub(super) struct Ambient {
 }
 
 /// What one correction moved, W per channel, one side.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Moved {
-    /// The factor a of the uniform light.
-    pub(super) factor: Rgb,
+    /// The factor a of the uniform light, by patch: the same for all that light joins.
+    pub(super) factors: Vec<Rgb>,
     pub(super) shot: Rgb,
     pub(super) received: Rgb,
 }
 
 impl Ambient {
-    pub(super) fn new(patches: usize, receivers: usize) -> Self {
+    pub(super) fn new(mesh: &Mesh, receivers: usize) -> Self {
+        let patches = mesh.patches.len();
+        let mut patch_of = vec![0; mesh.points.len()];
+        for (patch, id) in mesh.patches.iter().zip(0u32..) {
+            for e in patch.elements.clone() {
+                for p in mesh.elements[e as usize].points {
+                    patch_of[p as usize] = id;
+                }
+            }
+        }
         Self {
+            patch_of,
+            sees: vec![None; receivers],
+            joined: (0..patches as u32).collect(),
             phase: Phase::Watching,
             rows: vec![0.0; receivers],
             reflected: vec![Rgb::ZERO; receivers],
@@ -74,6 +93,30 @@ impl Ambient {
     /// Whether the patch has not been learnt from yet.
     pub(super) fn wants(&self, patch: usize) -> bool {
         self.waiting[patch]
+    }
+
+    /// Takes in what each receiver has seen of a patch that shot for the first time.
+    pub(super) fn learn(&mut self, patch: usize, reflectance: Rgb, seen: &[f64]) {
+        for (i, &seen) in seen.iter().enumerate().filter(|(_, seen)| **seen > 0.0) {
+            self.rows[i] += seen;
+            self.reflected[i] += reflectance * seen;
+            self.sees[i] = Some(patch as u32);
+            if let Some(&own) = self.patch_of.get(i) {
+                let (a, b) = (self.part(patch as u32), self.part(own));
+                self.joined[a.max(b) as usize] = a.min(b);
+            }
+        }
+    }
+
+    /// The patch that stands for the part of the scene that a patch belongs to.
+    fn part(&mut self, mut patch: u32) -> u32 {
+        while self.joined[patch as usize] != patch {
+            // Halving the way keeps later ways short.
+            let next = self.joined[self.joined[patch as usize] as usize];
+            self.joined[patch as usize] = next;
+            patch = next;
+        }
+        patch
     }
 
     /// Notes that a patch has shot.
@@ -123,30 +166,49 @@ impl Ambient {
         points.iter().map(|&p| self.reflected[p as usize]).sum::<Rgb>() / 3.0
     }
 
-    /// Trades unshot light for uniform light, such that ΣA·u = 0 in each channel.
-    pub(super) fn correct(&self, mesh: &Mesh, state: &mut State) -> Moved {
-        let (mut unshot, mut kept) = (RgbSum::default(), RgbSum::default());
-        let one = Rgb::splat(1.0);
-        for (element, u) in mesh.elements.iter().zip(&state.unshot) {
-            let rho = mesh.root_of(element).reflectance;
-            unshot.add(*u * element.area);
-            kept.add(rho * (one - self.of_element(element.points)) * element.area);
-        }
-        let factor = unshot.value().share_of(kept.value());
-        for (at, reflected) in state.at_points.iter_mut().zip(&self.reflected) {
-            *at += factor * *reflected;
+    /// Trades unshot light for uniform light, such that ΣA·u = 0 in each channel of each part
+    /// of the scene.
+    pub(super) fn correct(&mut self, mesh: &Mesh, state: &mut State) -> Moved {
+        let parts: Vec<usize> =
+            (0..mesh.patches.len() as u32).map(|p| self.part(p) as usize).collect();
+        let factors = self.factors(mesh, state, &parts);
+        for (i, at) in state.at_points.iter_mut().enumerate() {
+            if let Some(shooter) = self.sees[i] {
+                *at += factors[shooter as usize] * self.reflected[i];
+            }
         }
         let (mut shot, mut received) = (RgbSum::default(), RgbSum::default());
-        for (i, element) in mesh.elements.iter().enumerate() {
-            let rho = mesh.root_of(element).reflectance;
-            let h = self.of_element(element.points);
-            state.irradiance[i] += factor * h;
-            state.unshot[i] -= factor * rho * (one - h);
-            shot.add(factor * rho * element.area);
-            received.add(factor * h * element.area);
+        let one = Rgb::splat(1.0);
+        for (patch, &factor) in mesh.patches.iter().zip(&factors) {
+            for i in patch.elements.clone().map(|e| e as usize) {
+                let element = &mesh.elements[i];
+                let rho = mesh.root_of(element).reflectance;
+                let h = self.of_element(element.points);
+                state.irradiance[i] += factor * h;
+                state.unshot[i] -= factor * rho * (one - h);
+                shot.add(factor * rho * element.area);
+                received.add(factor * h * element.area);
+            }
         }
         state.sum_patches(mesh);
-        Moved { factor, shot: shot.value(), received: received.value() }
+        Moved { factors, shot: shot.value(), received: received.value() }
+    }
+
+    /// ΣA·u / ΣA·ρ(1 − h) of the part that each patch belongs to.
+    fn factors(&self, mesh: &Mesh, state: &State, parts: &[usize]) -> Vec<Rgb> {
+        let mut sums = vec![(RgbSum::default(), RgbSum::default()); parts.len()];
+        let one = Rgb::splat(1.0);
+        for (patch, &part) in mesh.patches.iter().zip(parts) {
+            let (unshot, kept) = &mut sums[part];
+            for i in patch.elements.clone().map(|e| e as usize) {
+                let element = &mesh.elements[i];
+                let rho = mesh.root_of(element).reflectance;
+                unshot.add(state.unshot[i] * element.area);
+                kept.add(rho * (one - self.of_element(element.points)) * element.area);
+            }
+        }
+        let factor = |&part: &usize| sums[part].0.value().share_of(sums[part].1.value());
+        parts.iter().map(factor).collect()
     }
 
     /// Makes every row sum to 1, in what has arrived and from now on; returns the factors and

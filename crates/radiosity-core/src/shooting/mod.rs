@@ -146,7 +146,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
             state: State::new(mesh, receivers.len()),
             mean: emitted.share_of(absorption.value()),
             emitted,
-            ambient: stiff.then(|| Ambient::new(mesh.patches.len(), receivers.len())),
+            ambient: stiff.then(|| Ambient::new(mesh, receivers.len())),
             arriving: vec![Rgb::ZERO; receivers.len()],
             seen: vec![0.0; receivers.len()],
             mesh,
@@ -333,7 +333,9 @@ impl<'a, E: Executor> Shooting<'a, E> {
                 let plain = ambient.loss() >= LOSS_OF_PLAIN;
                 ambient.phase = if plain { Phase::LeftOut } else { Phase::Completing };
             }
-            Phase::Correcting if self.shots % (patches / PER_SWEEP).max(1) == 0 => self.correct(),
+            Phase::Correcting if self.shots.is_multiple_of((patches / PER_SWEEP).max(1)) => {
+                self.correct();
+            }
             _ => {}
         }
         if self.ambient.as_ref().is_some_and(|a| a.phase == Phase::Completing && a.whole()) {
@@ -360,14 +362,9 @@ impl<'a, E: Executor> Shooting<'a, E> {
 
     /// One ambient correction, booked as what it stands for: a shot of all patches at once.
     fn correct(&mut self) {
-        let Some(ambient) = &self.ambient else { return };
+        let Some(ambient) = &mut self.ambient else { return };
         let moved = ambient.correct(self.mesh, &mut self.state);
-        let sampled = (!self.census.is_empty()).then(|| {
-            let mut lost = self.uniform_loss();
-            lost.wrong_side = lost.wrong_side * moved.factor;
-            lost.escaped = lost.escaped * moved.factor;
-            lost
-        });
+        let sampled = (!self.census.is_empty()).then(|| self.uniform_loss(&moved.factors));
         self.account.book(moved.shot * sides(self.config.exchange) - moved.received, sampled);
     }
 
@@ -428,10 +425,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
             self.counts.form_factors += run.counts.form_factors;
         }
         if let (true, Some(ambient)) = (learn, self.ambient.as_mut()) {
-            for (i, &seen) in self.seen.iter().enumerate() {
-                ambient.rows[i] += seen;
-                ambient.reflected[i] += root.reflectance * seen;
-            }
+            ambient.learn(shooter, root.reflectance, &self.seen);
         }
     }
 }

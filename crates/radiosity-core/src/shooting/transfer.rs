@@ -9,7 +9,7 @@ use form_factor::{Rule, centroid_kernel, lambert, three_point_kernel};
 use glam::DVec3;
 use scene::Rgb;
 
-use super::cell::{Cell, Parts};
+use super::cell::{Cell, ORIGINS, Parts};
 use super::detail::Detail;
 use crate::config::Exchange;
 use crate::mesh::{Mesh, Patch, ReceiverPoint};
@@ -96,9 +96,10 @@ pub(super) struct Counts {
 pub(super) struct Scratch {
     /// A stack of runs of receivers that wait for finer cells.
     waiting: Vec<u32>,
-    /// Receivers of the present cell, with the form factor that visibility decides on.
-    lit: Vec<(u32, f64)>,
-    targets: Vec<Target>,
+    /// Receivers of the present cell by the place their segments start from, each with the
+    /// form factor that visibility decides on.
+    lit: [Vec<(u32, f64)>; ORIGINS],
+    targets: [Vec<Target>; ORIGINS],
     blocked: Vec<bool>,
 }
 
@@ -153,7 +154,7 @@ impl Shot<'_> {
         side: f64,
         share: f64,
     ) -> bool {
-        let near = receiver.position.distance(cell.centroid) < self.open_radii * cell.radius;
+        let near = receiver.position.distance(cell.middle) < self.open_radii * cell.radius;
         match cell.parts {
             Parts::Quarters(0) => return false,
             Parts::Mesh(_) if near => return true,
@@ -208,8 +209,8 @@ impl Run<'_> {
         if cell.unshot == Rgb::ZERO && self.seen.is_none() {
             return;
         }
-        self.scratch.lit.clear();
-        self.scratch.targets.clear();
+        self.scratch.lit.iter_mut().for_each(Vec::clear);
+        self.scratch.targets.iter_mut().for_each(Vec::clear);
         let last = self.scratch.waiting.len();
         for i in first..last {
             let index = self.scratch.waiting[i];
@@ -227,8 +228,10 @@ impl Run<'_> {
             }
             let to = receiver.position + normal * shot.lift();
             if from.is_none() && side > 0.0 {
-                self.scratch.lit.push((index, form_factor));
-                self.scratch.targets.push(Target { point: to, ignore: receiver.triangle });
+                let start = index as usize % ORIGINS;
+                self.scratch.lit[start].push((index, form_factor));
+                let target = Target { point: to, ignore: receiver.triangle };
+                self.scratch.targets[start].push(target);
                 continue;
             }
             let from = from.unwrap_or(cell.centroid) + shot.normal * (side * shot.lift());
@@ -259,23 +262,24 @@ impl Run<'_> {
         self.scratch.waiting.truncate(last);
     }
 
-    /// One segment per lit receiver, all from the cell's centroid.
+    /// One segment per lit receiver, in batches that share a start.
     fn test_visibility(&mut self, cell: &Cell) {
         let Scratch { lit, targets, blocked, .. } = &mut *self.scratch;
-        if lit.is_empty() {
-            return;
-        }
-        let from = cell.centroid + self.shot.normal * self.shot.lift();
-        blocked.clear();
-        blocked.resize(targets.len(), false);
-        self.shot.occluder.occluded_batch(from, self.shot.triangle, targets, blocked);
-        self.counts.rays += targets.len() as u64;
-        for (&(index, form_factor), _) in
-            lit.iter().zip(&*blocked).filter(|(_, blocked)| !**blocked)
-        {
-            self.arriving[index as usize] += cell.unshot * form_factor;
-            if let Some(seen) = self.seen.as_deref_mut() {
-                seen[index as usize] += form_factor;
+        for ((lit, targets), origin) in lit.iter().zip(&*targets).zip(cell.origins) {
+            if lit.is_empty() {
+                continue;
+            }
+            let from = origin + self.shot.normal * self.shot.lift();
+            blocked.clear();
+            blocked.resize(targets.len(), false);
+            self.shot.occluder.occluded_batch(from, self.shot.triangle, targets, blocked);
+            self.counts.rays += targets.len() as u64;
+            let open = lit.iter().zip(&*blocked).filter(|(_, blocked)| !**blocked);
+            for (&(index, form_factor), _) in open {
+                self.arriving[index as usize] += cell.unshot * form_factor;
+                if let Some(seen) = self.seen.as_deref_mut() {
+                    seen[index as usize] += form_factor;
+                }
             }
         }
     }

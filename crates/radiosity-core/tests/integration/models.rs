@@ -3,8 +3,7 @@
 use accel::{Bvh, BvhConfig};
 use glam::DVec3;
 use radiosity_core::{
-    Census, Exchange, Ledger, Mesh, MeshConfig, Remaining, Sequential, Shooting, ShootingConfig,
-    StopReason,
+    Census, Exchange, Ledger, Mesh, MeshConfig, Sequential, Shooting, ShootingConfig, StopReason,
 };
 use scene::{Material, MaterialId, Rgb, Scene, SceneBuilder, Sides, Solution};
 
@@ -72,7 +71,6 @@ pub(crate) struct Solved {
     pub(crate) rays: u64,
     pub(crate) patches: usize,
     pub(crate) corrected: bool,
-    pub(crate) remaining: Remaining,
     pub(crate) closed_rows: Option<[f64; 2]>,
 }
 
@@ -94,7 +92,6 @@ pub(crate) fn solve_mesh(scene: &Scene, mesh: &Mesh, config: ShootingConfig) -> 
         rays: shooting.report().rays,
         patches: mesh.patches().len(),
         corrected: shooting.corrected(),
-        remaining: shooting.remaining(),
         closed_rows: shooting.closed_rows(),
     }
 }

@@ -52,6 +52,7 @@ struct MatrixFacts {
     stored: usize,
     pairs: u64,
     lit_pairs: u64,
+    visibility_pairs: u64,
     effort: u64,
 }
 
@@ -131,6 +132,7 @@ impl Report {
                 stored: computed.matrix.values().len(),
                 pairs: computed.pairs,
                 lit_pairs: computed.lit,
+                visibility_pairs: computed.visibility,
                 effort: computed.effort,
             },
             raw: Raw {

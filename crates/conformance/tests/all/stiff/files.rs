@@ -8,7 +8,7 @@ use conformance::{Engine, Solved, solve};
 use radiosity_core::{
     Census, Mesh, MeshConfig, Sequential, Shooting, ShootingConfig, StopReason, StopRule,
 };
-use scene_import::{Imported, Options, open_bytes};
+use scene_import::{DiagnosticKind, Imported, Options, open_bytes};
 use tri_io::{TriRecord, Writer};
 
 use crate::BALANCED;
@@ -140,4 +140,81 @@ fn broken_files_name_the_place() {
     assert_eq!(error(&nan), "broken.tri:5:3: expected a finite number, found \"NaN\"");
     let wide = whole.replace("1 2 3", "1 2 300");
     assert_eq!(error(&wide), "broken.tri:2:5: expected an integer from 0 to 255, found \"300\"");
+}
+
+/// Refused, with the line: what no file may say.
+fn refused(name: &str, text: &str, line: u64) {
+    let error = open_bytes(name, text.as_bytes(), &Options::default()).unwrap_err();
+    println!("{error}");
+    assert_eq!(error.line(), Some(line), "{error}");
+    assert!(error.to_string().starts_with(&format!("{name}:{line}:")), "{error}");
+}
+
+#[test]
+fn nan_inf_denormal() {
+    let tri = |corner: &str| format!("Triangle\n1 2 3 0 0 0\n0 0 0\n1 0 0\n{corner}\n");
+    for word in ["nan", "NaN", "inf", "-inf", "infinity", "1e999"] {
+        refused("t.tri", &tri(&format!("0 {word} 0")), 5);
+    }
+    for colours in
+        ["-1 0 0 0 0 0", "nan 0 0 0 0 0", "0 0 0 0 0 -1", "0 0 0 256 0 0", "0.5 0 0 0 0 0"]
+    {
+        refused("t.tri", &tri("0 1 0").replace("1 2 3 0 0 0", colours), 2);
+    }
+    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    for index in ["4", "0", "-4", "99999999999999999999", "x", "nan"] {
+        refused("t.obj", &obj.replace("1 2 3", &format!("1 2 {index}")), 4);
+    }
+    // Lengths that f64 can hardly tell from 0 count as 0: the triangle stays, is warned about,
+    // and takes no part.
+    let cube = "Triangle\n255 255 255 255 255 255\n0 0 0\n1 0 0\n0 1 0\n";
+    for tiny in ["1e-320", "-4.9e-324", "1e-310"] {
+        let text =
+            format!("{cube}Triangle\n255 255 255 255 255 255\n0 0 0\n{tiny} 0 0\n0 {tiny} 0\n");
+        let imported = open_bytes("t.tri", text.as_bytes(), &Options::default()).unwrap();
+        let kinds: Vec<_> =
+            imported.diagnostics.iter().map(|d| (d.place.as_str(), &d.kind)).collect();
+        assert_eq!(kinds, [("t.tri:6", &DiagnosticKind::Degenerate)]);
+        let config = ShootingConfig::until(1e-3);
+        let solved = solve(&imported.scene, 16, config, Engine::FIRST).unwrap();
+        assert!(
+            solved.solution.elements.iter().all(|e| e.triangle.0 == 0 && e.exitance[0] == 25_500.0)
+        );
+    }
+    // A denormal among sound coordinates is no more than a rounding.
+    let imported = open_bytes("t.tri", tri("1e-320 1 0").as_bytes(), &Options::default()).unwrap();
+    assert!(imported.diagnostics.is_empty());
+}
+
+/// OBJ knows `nan` and any reflectance: they are repaired, and every repair is a warning that
+/// names its place.
+#[test]
+fn obj_numbers_that_no_scene_holds_are_warned_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let open = |vertex: &str, material: &str| {
+        let text = format!("mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv {vertex} 1 0\nusemtl m\nf 1 2 3\n");
+        std::fs::write(folder.path().join("t.obj"), text).unwrap();
+        std::fs::write(folder.path().join("t.mtl"), format!("newmtl m\n{material}\n")).unwrap();
+        scene_import::open(&folder.path().join("t.obj"), &Options::default())
+    };
+    assert!(open("0", "Kd .5 .5 .5").unwrap().diagnostics.is_empty());
+    for (vertex, material) in [
+        ("nan", "Kd .5 .5 .5"),
+        ("inf", "Kd .5 .5 .5"),
+        ("0", "Kd 1.2 .5 .5"),
+        ("0", "Kd -.1 .5 .5"),
+        ("0", "Kd nan .5 .5"),
+        ("0", "Kd .5 .5 .5\nKe -1 0 0"),
+        ("0", "Kd .5 .5 .5\nKe inf 0 0"),
+    ] {
+        match open(vertex, material) {
+            Ok(imported) => {
+                println!("{vertex}, {material}: {}", imported.diagnostics[0]);
+                assert_eq!(imported.diagnostics.len(), 1);
+                let corners = imported.scene.ids().map(|id| imported.scene.corners(id));
+                assert!(corners.flatten().all(|p| p.is_finite()));
+            }
+            Err(error) => println!("{vertex}, {material}: {error}"),
+        }
+    }
 }
