@@ -10,6 +10,7 @@ mod form_factors;
 mod laws;
 mod reference;
 mod scenes;
+mod statement;
 mod stiff;
 mod tilted;
 mod verified;
