@@ -1,17 +1,19 @@
 //! The command line resolved: defaults filled in, contradictions refused. Pure.
 
 mod form_factors;
+mod goal;
 
 use std::path::PathBuf;
-use std::time::Duration;
 
 use output::{Exposure, Format};
-use radiosity_core::{Asked, Exchange, MeshConfig};
+use radiosity_core::{Exchange, MeshConfig};
 use scene_import::SidesRule;
 
 use crate::args::{AccelArg, PictureArgs, ReadArgs, SidesArg, SolveArgs, WorkArgs};
 use crate::failure::Failure;
 pub(crate) use form_factors::{FormFactors, TableTarget, form_factors};
+pub(crate) use goal::{BYTES_PER_ELEMENT, Goal, Limits};
+use goal::{DEFAULT_CONVERGE, DEFAULT_ERROR};
 
 /// Elements asked for when the command line does not say.
 const DEFAULT_ELEMENTS: usize = 10_000;
@@ -32,68 +34,6 @@ pub(crate) struct Solve {
     pub(crate) work: Work,
     pub(crate) read: Read,
     pub(crate) picture: PictureArgs,
-}
-
-/// What `solve` works towards.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Goal {
-    /// Until the stated error is at most this.
-    Error(f64),
-    /// On one mesh, until this share of the power is unshot; `stated` with coarser meshes
-    /// beside it, to say how wrong it is.
-    Mesh { elements: Option<usize>, converge: f64, stated: bool },
-}
-
-/// What ends the work before its goal.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Limits {
-    pub(crate) time: Option<Duration>,
-    pub(crate) elements: Option<usize>,
-    pub(crate) memory: Option<u64>,
-}
-
-/// Stated error asked for when the command line does not say.
-const DEFAULT_ERROR: f64 = 0.01;
-
-/// Unshot share on a fixed mesh when the command line does not say.
-const DEFAULT_CONVERGE: f64 = 1e-3;
-
-/// Peak bytes per element, scene and splitting included: 1.47 GB for 2.0 M elements of a
-/// million triangles (maximum resident size of `solve`).
-pub(crate) const BYTES_PER_ELEMENT: u64 = 750;
-
-impl Goal {
-    /// In the solver's terms, for a scene of so many triangles.
-    pub(crate) fn asked(&self, triangles: usize) -> Asked {
-        match *self {
-            Self::Error(target) => Asked::Error(target),
-            Self::Mesh { elements, stated, .. } => {
-                let elements = elements.unwrap_or(DEFAULT_ELEMENTS.max(2 * triangles));
-                if stated { Asked::Elements(elements) } else { Asked::Unstated(elements) }
-            }
-        }
-    }
-
-    /// The unshot share at which shooting stops; refinement sets its own.
-    pub(crate) fn converge(&self) -> f64 {
-        match *self {
-            Self::Error(_) => DEFAULT_CONVERGE,
-            Self::Mesh { converge, .. } => converge,
-        }
-    }
-}
-
-impl Limits {
-    /// The most elements that both limits allow, and which of them is the tighter.
-    pub(crate) fn most_elements(&self) -> (usize, &'static str) {
-        let by_memory = self.memory.map(|bytes| (bytes / BYTES_PER_ELEMENT).max(1) as usize);
-        match (self.elements, by_memory) {
-            (Some(n), Some(m)) if m < n => (m, "--max-memory"),
-            (Some(n), _) => (n, "--max-elements"),
-            (None, Some(m)) => (m.min(MOST_ELEMENTS), "--max-memory"),
-            (None, None) => (MOST_ELEMENTS, "the widest mesh there is"),
-        }
-    }
 }
 
 /// Where a solution goes.
@@ -269,6 +209,7 @@ fn find_camera(name: &str, scene: &scene::Scene) -> Result<scene::Camera, Failur
 #[cfg(test)]
 mod tests {
     use clap::Parser;
+    use radiosity_core::Asked;
 
     use super::*;
     use crate::args::{Args, Command};

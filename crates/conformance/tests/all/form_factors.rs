@@ -178,7 +178,7 @@ fn sliver_1e4() {
     let above = [[0.0, 0.0, 0.0001], [0.5, 0.0001, 0.0001], [1.0, 0.0, 0.0001]];
     all_settings(&triangle(sliver), &triangle(above), 0.295_587_129_417_134_07);
     let fat = triangle([[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.5, 0.0, 1.0]]);
-    all_settings(&triangle(sliver), &fat, 0.499_955_274_333_699_66);
+    all_settings(&triangle(sliver), &fat, 0.499_955_274_333_699_7);
 }
 
 #[test]
@@ -294,7 +294,7 @@ fn screened(a: f64, c: f64, screens: &[[f64; 2]], tolerance: f64) -> Estimate {
 #[test]
 fn slit_visibility() {
     for (width, exact) in
-        [(0.1, 0.032_380_784_513_116_7), (2f64.powi(-10), 3.233_612_813_517_170_7e-4)]
+        [(0.1, 0.032_380_784_513_116_7), (2f64.powi(-10), 3.233_612_813_517_17e-4)]
     {
         for (tolerance, promised) in &SETTINGS[..3] {
             let screens = [[0.0, 0.5 - width / 2.0], [0.5 + width / 2.0, 1.0]];
@@ -308,7 +308,7 @@ fn slit_visibility() {
 #[test]
 fn exactly_half_blocked() {
     for (a, c, exact) in
-        [(1.0, 0.25, 0.316_018_215_006_930_14), (2.0, 3.0, 0.030_165_692_684_976_844)]
+        [(1.0, 0.25, 0.316_018_215_006_930_1), (2.0, 3.0, 0.030_165_692_684_976_844)]
     {
         for (tolerance, promised) in &SETTINGS[..3] {
             let f = screened(a, c, &[[0.0, a / 2.0]], *tolerance);

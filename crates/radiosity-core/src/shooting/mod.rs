@@ -10,12 +10,15 @@ mod account;
 mod ambient;
 mod cell;
 mod commit;
+mod correct;
 mod detail;
 mod gather;
+mod light;
 mod near;
 mod remaining;
 mod select;
 mod state;
+mod stop;
 mod transfer;
 
 use accel::Occluder;
@@ -29,49 +32,16 @@ use crate::mesh::{Mesh, ReceiverPoint};
 use crate::observer::{Control, Observer, StepReport};
 use crate::reconstruct;
 use account::Account;
-use ambient::{Ambient, LOSS_OF_PLAIN, PER_SWEEP, Phase};
+use ambient::{Ambient, LOSS_OF_PLAIN, Phase};
 use cell::Cell;
-use detail::Detail;
 pub use gather::Gathered;
 use near::Near;
 pub use remaining::Remaining;
 use state::State;
+use stop::STALL_FALL;
+pub use stop::{DIVERGED, StopReason};
 pub(crate) use transfer::SEGMENT_LIFT;
-use transfer::{Counts, Receivers, Scratch, Shot};
-
-/// Receivers per run: their segments from one cell form a batch.
-const RUN: usize = 256;
-
-/// The solver gives up when this many shots per patch in a row lowered the unshot power by
-/// less than [`STALL_FALL`]: light goes round between perfect reflectors.
-const STALL_SWEEPS: u64 = 20;
-
-/// Unshot power over emitted power beyond which the solver gives up: it starts at 1, and
-/// with rows that sum to at most 1 it cannot rise.
-pub const DIVERGED: f64 = 2.0;
-
-/// Relative fall of the unshot power that counts as progress: a mean absorption of 5e-5.
-const STALL_FALL: f64 = 1e-3;
-
-/// Why the solver stopped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StopReason {
-    /// Unshot power is at or below the asked share.
-    Converged,
-    /// Nothing emits.
-    NoLight,
-    /// The asked number of shots is done.
-    ShotLimit,
-    /// The observer said so.
-    Stopped,
-    /// Unshot power no longer falls: the scene absorbs too little.
-    Stalled,
-    /// Unshot power grew past [`DIVERGED`] times the emitted: surfaces lie in one another
-    /// and each takes the light of all.
-    Diverged,
-    /// A closed scene in which nothing absorbs: the light has no end, and no solution.
-    Singular,
-}
+use transfer::{Counts, Scratch};
 
 /// The shooting solver over one mesh and one occluder.
 pub struct Shooting<'a, E: Executor> {
@@ -180,27 +150,6 @@ impl<'a, E: Executor> Shooting<'a, E> {
         }
     }
 
-    /// Whether there is a reason not to shoot again.
-    #[must_use]
-    pub fn finished(&self) -> Option<StopReason> {
-        let stall = STALL_SWEEPS * self.mesh.patches.len() as u64;
-        if self.emitted == Rgb::ZERO {
-            Some(StopReason::NoLight)
-        } else if self.nothing_absorbs() {
-            Some(StopReason::Singular)
-        } else if self.unshot_share() <= self.config.stop.unshot {
-            Some(StopReason::Converged)
-        } else if self.config.stop.max_shots.is_some_and(|most| self.shots >= most) {
-            Some(StopReason::ShotLimit)
-        } else if self.unshot_share() > DIVERGED {
-            Some(StopReason::Diverged)
-        } else if self.shots > self.lowest.1 + stall {
-            Some(StopReason::Stalled)
-        } else {
-            None
-        }
-    }
-
     /// Asks for less unshot light than before: shooting may go on from where it stopped.
     pub fn tighten(&mut self, unshot: f64) {
         self.config.stop.unshot = unshot;
@@ -275,20 +224,6 @@ impl<'a, E: Executor> Shooting<'a, E> {
         self.raw_rows
     }
 
-    /// ΣA|u| over the emitted power, worst channel; 0 without light.
-    fn unshot_share(&self) -> f64 {
-        let unshot = self.state.unshot_power() * sides(self.config.exchange);
-        unshot.share_of(self.emitted).max_channel()
-    }
-
-    /// Whether light in some lit channel can go nowhere: every reflectance is 1, and no
-    /// sampled direction meets a back or leaves the scene.
-    fn nothing_absorbs(&self) -> bool {
-        (0..3).any(|c| self.emitted[c] > 0.0 && self.mean[c] == 0.0)
-            && !self.census.is_empty()
-            && !self.census.any_lost()
-    }
-
     /// Shoots one patch's light, be it none, and books it.
     fn shoot(&mut self, shooter: usize) {
         let power = self.state.power_of(self.mesh, shooter) * sides(self.config.exchange);
@@ -309,125 +244,6 @@ impl<'a, E: Executor> Shooting<'a, E> {
         self.account.book(rest.value(), sampled);
         self.watch(power);
     }
-
-    /// In the first sweep, books how much comes back.
-    fn watch(&mut self, power: Rgb) {
-        let Some(ambient) = self.ambient.as_mut().filter(|a| a.phase == Phase::Watching) else {
-            return;
-        };
-        let mut returned = Rgb::ZERO;
-        for (patch, received) in self.mesh.patches.iter().zip(&self.state.patch_received) {
-            let root = self.mesh.nodes[patch.node as usize].root as usize;
-            returned += self.mesh.roots[root].reflectance * *received;
-        }
-        ambient.watch(power, returned * sides(self.config.exchange));
-    }
-
-    /// Ambient corrections: decided on after the first sweep, made every few shots.
-    fn help(&mut self, shooter: usize) {
-        let patches = self.mesh.patches.len() as u64;
-        let Some(ambient) = self.ambient.as_mut() else { return };
-        ambient.learnt(shooter);
-        match ambient.phase {
-            Phase::Watching if self.shots >= patches => {
-                let plain = ambient.loss() >= LOSS_OF_PLAIN;
-                ambient.phase = if plain { Phase::LeftOut } else { Phase::Completing };
-            }
-            Phase::Correcting if self.shots.is_multiple_of((patches / PER_SWEEP).max(1)) => {
-                self.correct();
-            }
-            _ => {}
-        }
-        if self.ambient.as_ref().is_some_and(|a| a.phase == Phase::Completing && a.whole()) {
-            self.close();
-            self.correct();
-        }
-    }
-
-    /// Closes the rows, if no sampled direction loses light.
-    fn close(&mut self) {
-        let closed = !self.census.is_empty() && !self.census.any_lost();
-        let Some(ambient) = self.ambient.as_mut() else { return };
-        ambient.phase = Phase::Correcting;
-        if !closed || self.config.exchange != Exchange::OneSided {
-            return;
-        }
-        let own = &ambient.rows[..self.mesh.points.len()];
-        let least = own.iter().copied().fold(f64::INFINITY, f64::min);
-        self.raw_rows = Some([least, own.iter().copied().fold(0.0, f64::max)]);
-        let (factors, gained) = ambient.close(self.mesh, &mut self.state);
-        self.account.book(gained * -1.0, Some(crate::census::Lost::default()));
-        self.closure = Some(factors);
-    }
-
-    /// One ambient correction, booked as what it stands for: a shot of all patches at once.
-    fn correct(&mut self) {
-        let Some(ambient) = &mut self.ambient else { return };
-        let moved = ambient.correct(self.mesh, &mut self.state);
-        let sampled = (!self.census.is_empty()).then(|| self.uniform_loss(&moved.factors));
-        self.account.book(moved.shot * sides(self.config.exchange) - moved.received, sampled);
-    }
-
-    /// An exitance over the scene's mean irradiance, brightest channel.
-    fn brightness(&self, exitance: Rgb) -> f64 {
-        exitance.abs().share_of(self.mean).max_channel()
-    }
-
-    /// Lights every receiver point, every probe and the inside of near elements.
-    fn transfer(&mut self, shooter: usize) {
-        let (mesh, exchange) = (self.mesh, self.config.exchange);
-        let patch = &mesh.patches[shooter];
-        let root = &mesh.roots[mesh.nodes[patch.node as usize].root as usize];
-        let detail = Detail::of(&self.config);
-        let quarterings = detail.quarterings;
-        cell::cells_of(mesh, self.census, patch, &self.state.unshot, quarterings, &mut self.cells);
-        let light = self.brightness(self.cells[0].unshot) / self.config.bright;
-        self.near.find(mesh, patch, exchange, light);
-        let shot = Shot::new(self.occluder, &self.cells, mesh, patch, exchange, &detail, self.mean);
-        let learn = self.ambient.as_ref().is_some_and(|a| a.wants(shooter));
-        if learn {
-            self.seen.fill(0.0);
-        }
-        let mut runs: Vec<Run> = Vec::new();
-        let totals = self.state.at_points.chunks_mut(RUN);
-        let slots = self.receivers.chunks(RUN).zip(self.arriving.chunks_mut(RUN));
-        let slots = slots.zip(self.seen.chunks_mut(RUN));
-        let mut closures = self.closure.as_deref().map(|c| c.chunks(RUN));
-        runs.extend(slots.zip(totals).map(|(((receivers, arriving), seen), total)| Run {
-            receivers: Receivers { points: receivers, shares: None },
-            arriving,
-            seen: learn.then_some(seen),
-            closure: closures.as_mut().and_then(Iterator::next),
-            total: Some(total),
-            scratch: None,
-            counts: Counts::default(),
-        }));
-        let Near { points, weights, arriving, .. } = &mut self.near;
-        let slots = points.chunks(RUN).zip(weights.chunks(RUN)).zip(arriving.chunks_mut(RUN));
-        runs.extend(slots.map(|((points, shares), arriving)| Run {
-            receivers: Receivers { points, shares: Some(shares) },
-            arriving,
-            seen: None,
-            closure: None,
-            total: None,
-            scratch: None,
-            counts: Counts::default(),
-        }));
-        if self.scratch.len() < runs.len() {
-            self.scratch.resize_with(runs.len(), Scratch::default);
-        }
-        for (run, scratch) in runs.iter_mut().zip(&mut self.scratch) {
-            run.scratch = Some(scratch);
-        }
-        self.executor.for_each(&mut runs, |run| run.light(&shot));
-        for run in &runs {
-            self.counts.rays += run.counts.rays;
-            self.counts.form_factors += run.counts.form_factors;
-        }
-        if let (true, Some(ambient)) = (learn, self.ambient.as_mut()) {
-            ambient.learn(shooter, root.reflectance, &self.seen);
-        }
-    }
 }
 
 /// How many sides of a surface shine with its exitance.
@@ -435,33 +251,5 @@ fn sides(exchange: Exchange) -> f64 {
     match exchange {
         Exchange::OneSided => 1.0,
         Exchange::Paired => 2.0,
-    }
-}
-
-/// A run of receivers with its slots.
-struct Run<'a> {
-    receivers: Receivers<'a>,
-    arriving: &'a mut [Rgb],
-    /// Where to sum the form factors to what is visible.
-    seen: Option<&'a mut [f64]>,
-    /// Factors on what arrives.
-    closure: Option<&'a [f64]>,
-    /// Where to add what arrived, for the mesh's own points and the probes.
-    total: Option<&'a mut [Rgb]>,
-    scratch: Option<&'a mut Scratch>,
-    counts: Counts,
-}
-
-impl Run<'_> {
-    fn light(&mut self, shot: &Shot) {
-        let Some(scratch) = self.scratch.as_deref_mut() else { return };
-        let seen = self.seen.as_deref_mut();
-        self.counts = shot.light(self.receivers, self.arriving, seen, scratch);
-        if let Some(closure) = self.closure {
-            self.arriving.iter_mut().zip(closure).for_each(|(a, k)| *a = *a * *k);
-        }
-        if let Some(total) = self.total.as_deref_mut() {
-            total.iter_mut().zip(&*self.arriving).for_each(|(t, a)| *t += *a);
-        }
     }
 }

@@ -1,0 +1,221 @@
+//! How many elements each level has, and what its predecessors say of it.
+
+use super::difference;
+use super::level::{Level, Setting};
+use super::statement::{Measured, Parts, Statement, Step, foreseen, mesh_error, stated};
+use super::{Asked, Reached, Refined};
+use crate::config::MeshConfig;
+use crate::executor::Executor;
+use crate::mesh::Mesh;
+use crate::observer::{LevelReport, Observer, StepReport};
+use crate::shooting::StopReason;
+
+/// Elements of the first level, or the scene's own triangles if those are more.
+const FIRST_ELEMENTS: usize = 1000;
+
+/// Growth of the elements from level to level.
+const GROWTH: f64 = 4.0;
+
+/// The next level aims below the asked error by this factor: estimates scatter.
+const AIM: f64 = 0.8;
+
+/// Least growth that is worth a level.
+const LEAST_GROWTH: f64 = 1.5;
+
+/// A finished level with what the levels before say of it.
+pub(super) struct Rung {
+    level: Level,
+    /// The step that led here.
+    step: Option<[Step; 3]>,
+    mesh_errors: [Measured; 3],
+}
+
+pub(super) struct Ladder<'a, E: Executor> {
+    pub(super) setting: Setting<'a, E>,
+    pub(super) most_elements: usize,
+    /// Work on finished levels.
+    pub(super) base: StepReport,
+    pub(super) done: Option<Rung>,
+}
+
+impl<E: Executor> Ladder<'_, E> {
+    pub(super) fn climb(&mut self, observer: &mut impl Observer) -> Refined {
+        let mut elements = self.first();
+        loop {
+            let level = self.solve(elements, observer);
+            let reason = level.reason;
+            let rung = self.place(level);
+            let statement = self.statement(&rung);
+            observer.level(&LevelReport {
+                elements: rung.level.elements(),
+                patches: rung.level.mesh.patches().len(),
+                work: self.base,
+                statement,
+            });
+            let next = self.next(&rung, statement.as_ref());
+            let reached = match (reason, next) {
+                (StopReason::Stopped, _) => Reached::Stopped,
+                (StopReason::Converged | StopReason::ShotLimit, Ok(more)) => {
+                    elements = more;
+                    self.done = Some(rung);
+                    continue;
+                }
+                (StopReason::Converged | StopReason::ShotLimit, Err(reached)) => reached,
+                _ => Reached::Shooting,
+            };
+            return self.finish(rung, statement, reached);
+        }
+    }
+
+    /// How many elements the first level has.
+    fn first(&self) -> usize {
+        let coarsest = FIRST_ELEMENTS.min(self.most_elements);
+        match self.setting.asked {
+            Asked::Error(_) => coarsest,
+            Asked::Unstated(n) => n,
+            // Two levels below the asked one, as far as the scene's own pieces allow.
+            Asked::Elements(n) => {
+                let least = Mesh::from_scene(self.setting.scene, &MeshConfig::with_elements(1));
+                let least = least.elements().len();
+                let start = n as f64 / (GROWTH * GROWTH);
+                let coarser = n as f64 / GROWTH;
+                if start >= least as f64 {
+                    start as usize
+                } else if coarser >= least as f64 {
+                    coarser as usize
+                } else if n as f64 >= LEAST_GROWTH * least as f64 {
+                    least
+                } else {
+                    n
+                }
+            }
+        }
+    }
+
+    /// How many elements the next level has, or why there is none.
+    fn next(&self, rung: &Rung, statement: Option<&Statement>) -> Result<usize, Reached> {
+        let have = rung.level.elements();
+        match self.setting.asked {
+            Asked::Unstated(_) => Err(Reached::Elements),
+            Asked::Elements(n) => {
+                if have as f64 * LEAST_GROWTH > n as f64 {
+                    return Err(Reached::Elements);
+                }
+                let more = (have as f64 * GROWTH).ceil() as usize;
+                // No level shortly below the asked one.
+                Ok(if more as f64 * LEAST_GROWTH > n as f64 { n } else { more })
+            }
+            Asked::Error(target) => {
+                let parts = statement.map_or_else(Parts::default, |s| s.triangles.e1);
+                if statement.is_some() && parts.total() <= target {
+                    return Err(Reached::Error);
+                }
+                let left = target * AIM - parts.iteration - parts.form_factor;
+                let wanted = if parts.mesh.is_finite() && left > 0.0 {
+                    (parts.mesh / left).powi(2).clamp(LEAST_GROWTH, GROWTH)
+                } else {
+                    GROWTH
+                };
+                let more = (have as f64 * wanted).ceil();
+                if more <= self.most_elements as f64 {
+                    Ok(more as usize)
+                } else if have as f64 * LEAST_GROWTH <= self.most_elements as f64 {
+                    Ok(self.most_elements)
+                } else {
+                    Err(Reached::ElementLimit)
+                }
+            }
+        }
+    }
+
+    fn solve(&mut self, elements: usize, observer: &mut impl Observer) -> Level {
+        let base = self.base;
+        let mut relay = |step: &StepReport| observer.step(&base.and(step));
+        let level = self.setting.level(elements, self.done.is_none(), &mut relay);
+        self.base = base.and(&level.work);
+        level
+    }
+
+    /// Compares a level with the one before.
+    fn place(&self, level: Level) -> Rung {
+        let Some(before) = &self.done else {
+            return Rung { level, step: None, mesh_errors: [Measured::UNKNOWN; 3] };
+        };
+        let (from, to) = (before.level.elements(), level.elements());
+        if level.reason == StopReason::Stopped {
+            let mesh_errors = before.mesh_errors.map(|e| foreseen(e, from, to));
+            return Rung { level, step: None, mesh_errors };
+        }
+        let (scene, counted) = (self.setting.scene, level.counted);
+        let (coarse, fine) = (before.level.lit(), level.lit());
+        let differences = [
+            difference::of_triangles(scene, coarse, fine, counted),
+            difference::of_points(scene, coarse, fine, counted),
+            difference::of_places(scene, self.setting.probes, &before.level.probes, &level.probes),
+        ];
+        let step = differences.map(|difference| Step { difference, from, to });
+        let mut mesh_errors = [Measured::UNKNOWN; 3];
+        for (i, error) in mesh_errors.iter_mut().enumerate() {
+            *error = mesh_error(before.step.map(|s| s[i]), step[i]);
+        }
+        Rung { level, step: Some(step), mesh_errors }
+    }
+
+    fn statement(&self, rung: &Rung) -> Option<Statement> {
+        if !self.setting.asked.stated() {
+            return None;
+        }
+        let Level { iteration, sampled, probes, .. } = &rung.level;
+        let [triangles, points, places] = rung.mesh_errors;
+        Some(Statement {
+            triangles: stated(*iteration, sampled.triangles, triangles),
+            points: stated(*iteration, sampled.points, points),
+            probes: (!probes.is_empty()).then(|| stated(*iteration, sampled.points, places)),
+            rows: sampled.rows,
+            sample: sampled.elements,
+        })
+    }
+
+    /// The result: of a level that was cut short and the one before, the better one.
+    fn finish(&mut self, rung: Rung, statement: Option<Statement>, reached: Reached) -> Refined {
+        let (rung, statement) = match self.done.take() {
+            Some(before) if reached == Reached::Stopped => {
+                let earlier = self.statement(&before);
+                let total =
+                    |s: &Option<Statement>| s.map_or(f64::INFINITY, |s| s.triangles.e1.total());
+                if total(&earlier) <= total(&statement) {
+                    (before, earlier)
+                } else {
+                    (rung, statement)
+                }
+            }
+            _ => (rung, statement),
+        };
+        let level = rung.level;
+        Refined {
+            mesh: level.mesh,
+            solution: level.solution,
+            statement,
+            ledger: level.ledger,
+            reason: level.reason,
+            reached,
+            work: level.work,
+            total_work: StepReport { unshot: level.work.unshot, ..self.base },
+            corrected: level.corrected,
+            closed_rows: level.closed_rows,
+            probes: level.probes,
+        }
+    }
+}
+
+impl StepReport {
+    /// The work of both, with the unshot share of the later.
+    fn and(&self, later: &Self) -> Self {
+        Self {
+            shots: self.shots + later.shots,
+            rays: self.rays + later.rays,
+            form_factors: self.form_factors + later.form_factors,
+            unshot: later.unshot,
+        }
+    }
+}
