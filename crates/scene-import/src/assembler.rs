@@ -1,18 +1,22 @@
-//! Builds a scene from a reader's triangles: joins equal vertices and materials, and
-//! brings values that no scene may hold into range, each with a warning.
+//! Builds a scene from a reader's triangles: joins equal vertices and materials.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 
 use glam::DVec3;
 use scene::{GroupId, Material, MaterialId, SceneBuilder, Sides, TriangleId, VertexId};
 
 use crate::{
-    Diagnostic, DiagnosticKind, Error, ErrorKind, Format, Imported, SidesRule, Summary, lint,
+    Diagnostic, DiagnosticKind, Error, ErrorKind, Format, Imported, SidesRule, Summary, lint, range,
 };
 
 /// Reflectance of a surface whose material is missing.
 #[cfg(any(feature = "obj", feature = "gltf"))]
 pub(crate) const MISSING_REFLECTANCE: scene::Rgb = scene::Rgb::splat(0.5);
+
+/// How far above 1 the reflectance of a triangle may lie and still be brought to 1: as far as
+/// the stated one, and as far again, as the mean of a texture is rounded as well.
+const ROUNDING: f64 = 2.0 * range::ROUNDING;
 
 /// A scene in the making.
 pub(crate) struct Assembler<'a> {
@@ -57,8 +61,14 @@ impl<'a> Assembler<'a> {
         self.diagnostics.push(Diagnostic { kind, triangle, place: place.into() });
     }
 
-    /// The material with these values, added if it is new, its values clamped if need be.
-    pub(crate) fn material(&mut self, stated: Material) -> Result<MaterialId, Error> {
+    /// The material with these values, added if it is new; warnings about it are placed at
+    /// `place`. Values out of range are refused, without their place: readers have judged
+    /// those that stand in the file.
+    pub(crate) fn material(
+        &mut self,
+        stated: Material,
+        place: impl Display,
+    ) -> Result<MaterialId, Error> {
         let [r, e] = [stated.reflectance.0, stated.emittance.0];
         let values = [r[0], r[1], r[2], e[0], e[1], e[2]].map(f64::to_bits);
         let key = (stated.name.clone(), values, stated.sides);
@@ -67,7 +77,7 @@ impl<'a> Assembler<'a> {
         }
         let mut material = stated;
         material.sides = self.sides.decide(material.sides);
-        self.clamp(&mut material);
+        self.settle_reflectance(&mut material, place);
         let id = self.builder.material(material).map_err(|cause| self.refused(cause))?;
         self.materials.insert(key, id);
         Ok(id)
@@ -76,30 +86,28 @@ impl<'a> Assembler<'a> {
     /// Grey, for a surface whose material is missing.
     #[cfg(any(feature = "obj", feature = "gltf"))]
     pub(crate) fn missing_material(&mut self, name: &str) -> Result<MaterialId, Error> {
-        self.material(Material {
+        let material = Material {
             name: name.to_owned(),
             reflectance: MISSING_REFLECTANCE,
             emittance: scene::Rgb::ZERO,
             sides: Sides::Front,
-        })
+        };
+        self.material(material, self.file)
     }
 
-    fn clamp(&mut self, material: &mut Material) {
-        let place = format!("{}: material {}", self.file, material.name);
+    /// Brings a reflectance that rounding has left above 1 back to it.
+    fn settle_reflectance(&mut self, material: &mut Material, place: impl Display) {
         let stated = material.reflectance;
-        // NaN fails both comparisons of `clamp` and has to be caught by name.
-        let reflectance = stated.map(|c| if c.is_nan() { 0.0 } else { c.clamp(0.0, 1.0) });
-        if reflectance != stated {
-            self.warn(DiagnosticKind::ReflectanceClamped { stated }, None, place.as_str());
-        } else if stated.max_channel() >= 1.0 {
-            self.warn(DiagnosticKind::ReflectanceOne, None, place.as_str());
-        }
-        let stated = material.emittance;
-        let emittance = stated.map(|c| if c.is_finite() && c > 0.0 { c } else { 0.0 });
-        if emittance != stated {
-            self.warn(DiagnosticKind::EmittanceClamped { stated }, None, place);
-        }
-        (material.reflectance, material.emittance) = (reflectance, emittance);
+        let settled = stated.map(|c| if c <= 1.0 + ROUNDING { c.min(1.0) } else { c });
+        let kind = if settled != stated {
+            DiagnosticKind::ReflectanceClamped { stated }
+        } else if stated.max_channel() == 1.0 {
+            DiagnosticKind::ReflectanceOne
+        } else {
+            return;
+        };
+        self.warn(kind, None, format!("{place}: material {}", material.name));
+        material.reflectance = settled;
     }
 
     /// A new group, even where another has the same name.
@@ -123,8 +131,9 @@ impl<'a> Assembler<'a> {
         self.builder.camera(camera);
     }
 
-    /// Adds a triangle. One with a coordinate that is not finite is collapsed to its first
-    /// finite corner, or to the origin, so that the triangles after it keep their numbers.
+    /// Adds a triangle. One that arithmetic, such as the transform of a node, has given a
+    /// coordinate that is not finite is collapsed to its first finite corner, or to the
+    /// origin, so that the triangles after it keep their numbers.
     pub(crate) fn triangle(
         &mut self,
         mut corners: [DVec3; 3],

@@ -28,21 +28,16 @@ pub enum DiagnosticKind {
         /// The earlier one.
         of: TriangleId,
     },
-    /// A triangle with a coordinate that is not finite: collapsed to a point in its place.
+    /// A triangle that a transform of finite numbers takes to a coordinate that is not
+    /// finite: collapsed to a point in its place.
     NonFinite,
-    /// A reflectance below 0, above 1 or not a number: brought to the nearest of 0 and 1,
-    /// or to 0 if it was no number.
+    /// A reflectance above 1 by no more than 10⁻⁶, as rounding leaves it: brought to 1.
     ReflectanceClamped {
         /// What the file says.
         stated: Rgb,
     },
     /// A reflectance of exactly 1: such a surface loses no light.
     ReflectanceOne,
-    /// An emission below 0 or not finite: set to 0.
-    EmittanceClamped {
-        /// What the file says, as emittance.
-        stated: Rgb,
-    },
     /// A material or a material library that is not there: grey of reflectance 0.5 instead.
     MissingMaterial {
         /// The missing name, or a few words where the file names none.
@@ -112,12 +107,9 @@ impl fmt::Display for DiagnosticKind {
                 f.write_str("a coordinate is not finite: the triangle is collapsed to a point")
             }
             Self::ReflectanceClamped { stated: Rgb(c) } => {
-                write!(f, "reflectance {c:?} is clamped to [0, 1]")
+                write!(f, "reflectance {c:?} is above 1 by a rounding: 1 is used")
             }
             Self::ReflectanceOne => f.write_str("a reflectance of exactly 1 loses no light"),
-            Self::EmittanceClamped { stated: Rgb(c) } => {
-                write!(f, "emittance {c:?} is clamped to finite values of at least 0")
-            }
             Self::MissingMaterial { name } => {
                 write!(f, "{name} is missing: grey of reflectance 0.5 is used")
             }

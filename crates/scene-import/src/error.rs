@@ -26,9 +26,11 @@ pub enum ErrorKind {
     UnknownFormat,
     /// This build lacks the feature that reads the format.
     FeatureOff,
-    /// The file is not what its extension says.
+    /// The file is not what its extension says, or has a word in its text where another is
+    /// expected: a number that no surface can have included.
     Syntax,
-    /// The file is well formed, but its parts contradict each other.
+    /// The file is well formed, but its parts contradict each other, or it holds a number
+    /// that no surface can have.
     Invalid,
     /// The file asks for far more than its size can justify.
     TooLarge,

@@ -14,6 +14,7 @@ mod lint;
 mod obj;
 mod open;
 mod options;
+mod range;
 #[cfg(any(feature = "obj", feature = "gltf"))]
 mod texture;
 mod tri;

@@ -23,8 +23,9 @@ pub(crate) struct Source<'a> {
 /// tells the format. Files that it names are looked for beside it.
 ///
 /// # Errors
-/// If the file cannot be read, is not what its extension says, or needs a feature that
-/// this build lacks.
+/// If the file cannot be read, is not what its extension says, holds a number that no
+/// surface can have, or needs a feature that this build lacks. Options that would give a
+/// surface such a number count as well.
 pub fn open(path: &Path, options: &Options) -> Result<Imported, Error> {
     let name =
         path.file_name().map_or_else(|| path.to_string_lossy(), |name| name.to_string_lossy());

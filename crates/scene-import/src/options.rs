@@ -5,9 +5,9 @@ use scene::Sides;
 /// How files are turned into scenes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Factor on the light of .tri emitters; 1 by default.
+    /// Factor on the light of .tri emitters, finite and at least 0; 1 by default.
     pub tri_light: f64,
-    /// Reflectance of a .tri surface whose front is 255; 0.5 by default.
+    /// Reflectance of a .tri surface whose front is 255, in [0, 1]; 0.5 by default.
     pub tri_reflect: f64,
     /// Which sides of the surfaces take part.
     pub sides: SidesRule,

@@ -19,10 +19,11 @@ pub(crate) fn read(source: &Source<'_>, options: &Options) -> Result<Imported, E
     let mut reader = Reader::new(source.bytes);
     while let Some(record) = reader.next() {
         let record = record.map_err(|cause| syntax(source.name, cause))?;
-        let material = assembler.material(material(&record, options))?;
+        let line = reader.line();
+        let place = format_args!("{}:{line}", source.name);
+        let material = assembler.material(material(&record, options), place)?;
         let corners = record.vertices.map(DVec3::from);
         let triangle = assembler.triangle(corners, material, group)?;
-        let line = reader.line();
         lines.push(line);
         if record.normals.is_some_and(|normals| points_to_back(corners, normals)) {
             let place = format!("{}:{line}", source.name);

@@ -11,7 +11,8 @@ use crate::{Error, ErrorKind};
 const MAX_ZEROS: usize = 1 << 22;
 
 /// Reads `N` components of each entry as numbers, integers scaled to [0, 1] or [−1, 1] where
-/// the accessor says so. Entries may have more components than `N`, which are left out.
+/// the accessor says so; all must be finite. Entries may have more components than `N`,
+/// which are left out.
 pub(super) fn read<const N: usize>(
     accessor: &Accessor<'_>,
     parsed: &Parsed,
@@ -19,7 +20,22 @@ pub(super) fn read<const N: usize>(
 ) -> Result<Vec<[f64; N]>, Error> {
     let place = format!("accessors[{}]", accessor.index());
     budget.entries(accessor.count(), &place)?;
-    read_checked(accessor, parsed).map_err(|message| budget.invalid(&format!("{place}: {message}")))
+    read_checked(accessor, parsed)
+        .and_then(finite)
+        .map_err(|message| budget.invalid(&format!("{place}: {message}")))
+}
+
+/// The entries, if all their numbers are finite: no coordinate or colour is otherwise.
+fn finite<const N: usize>(entries: Vec<[f64; N]>) -> Result<Vec<[f64; N]>, String> {
+    let wrong = entries.iter().enumerate().find_map(|(number, entry)| {
+        entry.iter().find(|c| !c.is_finite()).map(|component| (number, *component))
+    });
+    match wrong {
+        Some((number, component)) => {
+            Err(format!("expected finite numbers, found {component} in entry {number}"))
+        }
+        None => Ok(entries),
+    }
 }
 
 /// Reads indices.

@@ -8,6 +8,7 @@ mod budget;
 mod document;
 mod layer;
 mod primitive;
+mod range;
 mod stated;
 mod surface;
 mod uri;
@@ -51,7 +52,8 @@ pub(crate) fn read(
 ) -> Result<Imported, Error> {
     let parsed = Parsed::new(source)?;
     let mut assembler = Assembler::new(source.name, options.sides);
-    let stated = Stated::new(&parsed.document, &mut assembler);
+    let stated = Stated::new(&parsed.document, source.name, &mut assembler)?;
+    range::check(source.name, parsed.document.as_json(), &stated)?;
     warn_about_document(&parsed, &stated, source.name, &mut assembler);
     let mut budget = Budget::new(
         source.name,

@@ -1,6 +1,8 @@
 //! What the project's own GLB files state in `extras.radiosity`, which glTF has no place for
 //! or which its readers narrow to f32.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use gltf::Document;
 use gltf::json::Extras;
@@ -8,15 +10,16 @@ use scene::{Rgb, Sides};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use serde_json::value::RawValue;
 
-use crate::DiagnosticKind;
 use crate::assembler::Assembler;
+use crate::{DiagnosticKind, Error, ErrorKind};
 
 /// The member of `extras` that is ours.
 const KEY: &str = "radiosity";
 
 /// The extras of a document, each read once however often it is used. Malformed ones are
-/// warned about and count as absent.
+/// warned about and count as absent; numbers that f64 cannot hold are refused.
 pub(super) struct Stated {
     surfaces: Vec<Option<Surface>>,
     /// By mesh and primitive.
@@ -69,20 +72,25 @@ struct Lens {
 }
 
 impl Stated {
-    pub(super) fn new(document: &Document, assembler: &mut Assembler<'_>) -> Self {
+    pub(super) fn new(
+        document: &Document,
+        file: &str,
+        assembler: &mut Assembler<'_>,
+    ) -> Result<Self, Error> {
         let root = document.as_json();
         let meshes = root.meshes.iter().enumerate();
-        Self {
-            surfaces: each("materials", root.materials.iter().map(|m| &m.extras), assembler),
+        let mut each = Reading { file, assembler };
+        Ok(Self {
+            surfaces: each.list("materials", root.materials.iter().map(|m| &m.extras))?,
             faces: meshes
                 .map(|(m, mesh)| {
                     let path = format!("meshes[{m}].primitives");
-                    each(&path, mesh.primitives.iter().map(|p| &p.extras), assembler)
+                    each.list(&path, mesh.primitives.iter().map(|p| &p.extras))
                 })
-                .collect(),
-            nodes: each("nodes", root.nodes.iter().map(|n| &n.extras), assembler),
-            cameras: each("cameras", root.cameras.iter().map(|c| &c.extras), assembler),
-        }
+                .collect::<Result<_, _>>()?,
+            nodes: each.list("nodes", root.nodes.iter().map(|n| &n.extras))?,
+            cameras: each.list("cameras", root.cameras.iter().map(|c| &c.extras))?,
+        })
     }
 
     /// The surface that a material states.
@@ -145,28 +153,52 @@ fn refined<const N: usize>(narrow: [f32; N], stated: Option<[f64; N]>) -> [f64; 
     stated.filter(|wide| wide.map(|c| c as f32) == narrow).unwrap_or(narrow.map(f64::from))
 }
 
-/// What each entry of a list states.
-fn each<'e, T: DeserializeOwned>(
-    path: &str,
-    extras: impl Iterator<Item = &'e Extras>,
-    assembler: &mut Assembler<'_>,
-) -> Vec<Option<T>> {
-    let mut stated = |(index, extras): (usize, &Extras)| match parse(extras.as_ref()?.get()) {
-        Ok(ours) => ours,
-        Err(cause) => {
-            let what = format!("extras.{KEY}: {cause}");
-            assembler.warn(DiagnosticKind::Ignored { what }, None, format!("{path}[{index}]"));
-            None
-        }
-    };
-    extras.enumerate().map(&mut stated).collect()
+/// What reading needs besides the extras.
+struct Reading<'r, 'a> {
+    file: &'r str,
+    assembler: &'r mut Assembler<'a>,
 }
 
-/// Extras may be any JSON; those without our member are none of ours.
-fn parse<T: DeserializeOwned>(extras: &str) -> Result<Option<T>, serde_json::Error> {
-    let mut extras: Value = serde_json::from_str(extras)?;
-    match extras.get_mut(KEY) {
-        Some(ours) => serde_json::from_value(ours.take()).map(Some),
-        None => Ok(None),
+impl Reading<'_, '_> {
+    /// What each entry of a list states.
+    fn list<'e, T: DeserializeOwned>(
+        &mut self,
+        path: &str,
+        extras: impl Iterator<Item = &'e Extras>,
+    ) -> Result<Vec<Option<T>>, Error> {
+        let list = extras.enumerate();
+        list.map(|(index, extras)| self.entry(extras, || format!("{path}[{index}]"))).collect()
     }
+
+    fn entry<T: DeserializeOwned>(
+        &mut self,
+        extras: &Extras,
+        path: impl Fn() -> String,
+    ) -> Result<Option<T>, Error> {
+        let Some(ours) = extras.as_ref().and_then(|extras| member(extras.get())) else {
+            return Ok(None);
+        };
+        let value: Value = serde_json::from_str(ours.get()).map_err(|cause| {
+            // It is JSON, as all of the file is, so what cannot be read is a number.
+            let text = cause.to_string();
+            let text = text.split(" at line ").next().unwrap_or_default();
+            let message =
+                format!("{}.extras.{KEY}: expected numbers that f64 can hold: {text}", path());
+            Error::new(ErrorKind::Invalid, self.file, message).because(cause)
+        })?;
+        match serde_json::from_value(value) {
+            Ok(stated) => Ok(Some(stated)),
+            Err(cause) => {
+                let what = format!("extras.{KEY}: {cause}");
+                self.assembler.warn(DiagnosticKind::Ignored { what }, None, path());
+                Ok(None)
+            }
+        }
+    }
+}
+
+/// Our member of extras. They may be any JSON; those without it are none of ours.
+fn member(extras: &str) -> Option<&RawValue> {
+    let mut members: BTreeMap<String, &RawValue> = serde_json::from_str(extras).ok()?;
+    members.remove(KEY)
 }

@@ -72,12 +72,13 @@ impl<'p> Surfaces<'p> {
         let material = primitive.material();
         let stated = material.index().and_then(|index| self.stated.surface(index));
         let materials = if let Some(surface) = stated {
-            let id = assembler.material(Material {
+            let stated = Material {
                 name: name(&material),
                 reflectance: surface.reflectance(),
                 emittance: surface.emittance(),
                 sides: surface.sides(),
-            })?;
+            };
+            let id = assembler.material(stated, place(&material))?;
             vec![id; triangles.len()]
         } else {
             self.warn_about(&material, path, assembler);
@@ -102,13 +103,14 @@ impl<'p> Surfaces<'p> {
         let material = primitive.material();
         let appearance = self.appearance(primitive, &material, budget, assembler)?;
         let sides = if material.double_sided() { Sides::Both } else { Sides::Front };
-        let name = name(&material);
+        let (name, place) = (name(&material), place(&material));
         let grid = SampleGrid::for_triangles(triangles.len());
         let mut materials = Vec::with_capacity(triangles.len());
         for &corners in triangles {
             let [reflectance, emittance] = self.values(&appearance, corners, grid);
             let name = name.clone();
-            materials.push(assembler.material(Material { name, reflectance, emittance, sides })?);
+            let stated = Material { name, reflectance, emittance, sides };
+            materials.push(assembler.material(stated, &place)?);
         }
         Ok(materials)
     }
@@ -154,7 +156,15 @@ impl<'p> Surfaces<'p> {
         let strength = f64::from(material.emissive_strength().unwrap_or(1.0));
         let radiance = Rgb(material.emissive_factor().map(f64::from)) * strength;
         let colours = match primitive.get(&Semantic::Colors(0)) {
-            Some(colours) => Some(accessor::read(&colours, self.parsed, budget)?),
+            Some(colours) => {
+                let mut values = accessor::read(&colours, self.parsed, budget)?;
+                if clamp(&mut values) {
+                    let what = "what COLOR_0 has beyond [0, 1], as glTF demands".to_owned();
+                    let place = format!("accessors[{}]", colours.index());
+                    assembler.warn(DiagnosticKind::Ignored { what }, None, place);
+                }
+                Some(values)
+            }
             None => None,
         };
         let mut layer = |info: Option<gltf::texture::Info<'_>>| match info {
@@ -209,6 +219,25 @@ impl<'p> Surfaces<'p> {
         };
         [reflectance, emittance]
     }
+}
+
+/// Brings colours into [0, 1]; tells whether some were not.
+///
+/// # References
+/// glTF 2.0, section 3.7.2.1: `COLOR_0` is to be clamped.
+fn clamp(colours: &mut [[f64; 3]]) -> bool {
+    let mut changed = false;
+    for channel in colours.as_flattened_mut() {
+        let clamped = channel.clamp(0.0, 1.0);
+        changed |= clamped != *channel;
+        *channel = clamped;
+    }
+    changed
+}
+
+/// A material's place in the file.
+fn place(material: &gltf::Material<'_>) -> String {
+    format!("materials[{}]", material.index().unwrap_or_default())
 }
 
 /// A material's name, or its number where it has none.

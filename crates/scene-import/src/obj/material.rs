@@ -30,6 +30,8 @@ enum Entry {
 /// A material whose values differ from triangle to triangle.
 struct Textured {
     name: String,
+    /// Its place in the library.
+    place: String,
     reflectance: Rgb,
     emittance: Rgb,
     /// Into the textures.
@@ -53,7 +55,7 @@ impl<'a> Materials<'a> {
             let place = format!("{}:{line}", source.name);
             let named = name.as_ref().and_then(|name| library.get(name.as_str()));
             entries.push(match (named, name) {
-                (Some(material), _) => entry(material, &place, &mut textures, assembler)?,
+                (Some(material), _) => entry(material, &mut textures, assembler)?,
                 (None, Some(name)) => {
                     let kind = DiagnosticKind::MissingMaterial { name: format!("material {name}") };
                     assembler.warn(kind, None, place);
@@ -96,12 +98,13 @@ impl<'a> Materials<'a> {
             }),
             _ => Rgb::splat(1.0),
         };
-        assembler.material(Material {
+        let material = Material {
             name: textured.name.clone(),
             reflectance: textured.reflectance * mean(textured.reflectance_map),
             emittance: textured.emittance * mean(textured.emittance_map),
             sides: Sides::Front,
-        })
+        };
+        assembler.material(material, &textured.place)
     }
 }
 
@@ -143,11 +146,11 @@ fn libraries(
 
 fn entry(
     material: &MtlMaterial,
-    place: &str,
     textures: &mut Textures<'_>,
     assembler: &mut Assembler<'_>,
 ) -> Result<Entry, Error> {
-    let MtlMaterial { name, reflectance, radiance, reflectance_map, radiance_map } = material;
+    let MtlMaterial { name, place, reflectance, radiance, reflectance_map, radiance_map } =
+        material;
     let mut load =
         |map: &Option<String>| map.as_ref().and_then(|file| textures.load(file, place, assembler));
     let maps = [load(reflectance_map), load(radiance_map)];
@@ -157,7 +160,7 @@ fn entry(
         (None, Some(_)) => Rgb::splat(1.0),
         (None, None) => {
             let name = format!("Kd of material {name}");
-            assembler.warn(DiagnosticKind::MissingMaterial { name }, None, place);
+            assembler.warn(DiagnosticKind::MissingMaterial { name }, None, place.as_str());
             MISSING_REFLECTANCE
         }
     };
@@ -170,17 +173,14 @@ fn entry(
     let name = name.clone();
     if maps == [None; 2] {
         let sides = Sides::Front;
-        return Ok(Entry::Plain(assembler.material(Material {
-            name,
-            reflectance,
-            emittance,
-            sides,
-        })?));
+        let material = Material { name, reflectance, emittance, sides };
+        return Ok(Entry::Plain(assembler.material(material, place)?));
     }
     let [reflectance_map, emittance_map] = maps;
     let warned = false;
     Ok(Entry::Textured(Textured {
         name,
+        place: place.clone(),
         reflectance,
         emittance,
         reflectance_map,

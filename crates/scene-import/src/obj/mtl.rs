@@ -2,9 +2,11 @@
 
 use std::fmt::Write;
 
+use scene::Rgb;
+
 use super::Warning;
 use super::tokens::{self, Token};
-use crate::{DiagnosticKind, Error, ErrorKind};
+use crate::{DiagnosticKind, Error, ErrorKind, range, units};
 
 /// Texture options, and how many values can follow each.
 const TEXTURE_OPTIONS: &[(&str, usize)] = &[
@@ -27,6 +29,8 @@ const TEXTURE_OPTIONS: &[(&str, usize)] = &[
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct MtlMaterial {
     pub(super) name: String,
+    /// Its library, and the line where it begins.
+    pub(super) place: String,
     /// `Kd`: diffuse reflectance.
     pub(super) reflectance: Option<[f64; 3]>,
     /// `Ke`: radiance.
@@ -39,17 +43,18 @@ pub(super) struct MtlMaterial {
 
 /// The materials of a library in order, and its warnings.
 pub(super) fn parse(file: &str, text: &str) -> Result<(Vec<MtlMaterial>, Vec<Warning>), Error> {
-    let mut warnings = Vec::new();
-    // tobj panics on a colour of two numbers and knows no single ones; it is given the
-    // statements that matter here, checked and in full.
-    let mut checked = String::with_capacity(text.len());
-    tokens::for_each_line(text, |words| statement(file, words, &mut checked, &mut warnings))?;
+    let checked = String::with_capacity(text.len());
+    let mut library = Library { file, checked, begun: Vec::new(), warnings: Vec::new() };
+    tokens::for_each_line(text, |words| library.statement(words))?;
+    let Library { checked, begun, warnings, .. } = library;
     let (materials, _) = tobj::load_mtl_buf(&mut checked.as_bytes()).map_err(|cause| {
         Error::new(ErrorKind::Syntax, file, format!("expected a material library: {cause}"))
             .because(cause)
     })?;
-    let materials = materials.into_iter().map(|mut material| MtlMaterial {
+    // tobj makes one material of each `newmtl`.
+    let materials = materials.into_iter().zip(begun).map(|(mut material, (_, line))| MtlMaterial {
         name: material.name,
+        place: format!("{file}:{line}"),
         reflectance: material.diffuse,
         radiance: material.emissive,
         reflectance_map: material.diffuse_texture,
@@ -58,49 +63,84 @@ pub(super) fn parse(file: &str, text: &str) -> Result<(Vec<MtlMaterial>, Vec<War
     Ok((materials.collect(), warnings))
 }
 
-fn statement(
-    file: &str,
-    words: &[Token<'_>],
-    checked: &mut String,
-    warnings: &mut Vec<Warning>,
-) -> Result<(), Error> {
-    let (first, rest) = (words[0], &words[1..]);
-    let written = match first.text {
-        "newmtl" if rest.is_empty() => {
-            return Err(first.expected(file, "a material's name after it"));
-        }
-        "newmtl" => writeln!(checked, "newmtl {}", tokens::name(rest)),
-        "Kd" | "Ke" => {
-            let [r, g, b] = colour(file, first, tokens::without_comment(rest))?;
-            writeln!(checked, "{} {r} {g} {b}", first.text)
-        }
-        "map_Kd" | "map_Ke" => match texture_name(rest, first.line, warnings) {
-            name if name.is_empty() => return Err(first.expected(file, "a file's name after it")),
-            name => writeln!(checked, "{} {name}", first.text),
-        },
-        "d" | "Tr" => {
-            let opaque = if first.text == "d" { 1.0 } else { 0.0 };
-            // `d -halo 0.5` is a form of it too, so the last word is the number.
-            if rest.last().and_then(|word| word.text.parse().ok()).is_some_and(|x: f64| x != opaque)
-            {
-                let what = "transparency".to_owned();
-                warnings.push((first.line, DiagnosticKind::Ignored { what }));
-            }
-            Ok(())
-        }
-        _ => Ok(()),
-    };
-    written.expect("a string takes everything");
-    Ok(())
+/// A library as far as it has been gone over.
+struct Library<'a> {
+    file: &'a str,
+    /// The statements that matter here, checked and in full: tobj panics on a colour of two
+    /// numbers and knows no single ones.
+    checked: String,
+    /// The materials so far, each with its line.
+    begun: Vec<(String, u32)>,
+    warnings: Vec<Warning>,
 }
 
-/// One number for grey, or three.
-fn colour(file: &str, first: Token<'_>, rest: &[Token<'_>]) -> Result<[f64; 3], Error> {
-    match rest {
-        [grey] => Ok([grey.number(file)?; 3]),
-        [r, g, b, ..] => Ok([r.number(file)?, g.number(file)?, b.number(file)?]),
-        [] => Err(first.expected(file, "red, green and blue after it")),
-        [_, last] => Err(last.expected(file, "red, green and blue")),
+impl Library<'_> {
+    fn statement(&mut self, words: &[Token<'_>]) -> Result<(), Error> {
+        let (first, rest) = (words[0], &words[1..]);
+        let written = match first.text {
+            "newmtl" if rest.is_empty() => {
+                return Err(first.expected(self.file, "a material's name after it"));
+            }
+            "newmtl" => {
+                let name = tokens::name(rest);
+                self.begun.push((name.clone(), first.line));
+                writeln!(self.checked, "newmtl {name}")
+            }
+            "Kd" | "Ke" => {
+                let [r, g, b] = self.colour(first, tokens::without_comment(rest))?;
+                writeln!(self.checked, "{} {r} {g} {b}", first.text)
+            }
+            "map_Kd" | "map_Ke" => match texture_name(rest, first.line, &mut self.warnings) {
+                name if name.is_empty() => {
+                    return Err(first.expected(self.file, "a file's name after it"));
+                }
+                name => writeln!(self.checked, "{} {name}", first.text),
+            },
+            "d" | "Tr" => {
+                let opaque = if first.text == "d" { 1.0 } else { 0.0 };
+                // `d -halo 0.5` is a form of it too, so the last word is the number.
+                let number = rest.last().and_then(|word| word.text.parse().ok());
+                if number.is_some_and(|x: f64| x != opaque) {
+                    let what = "transparency".to_owned();
+                    self.warnings.push((first.line, DiagnosticKind::Ignored { what }));
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        };
+        written.expect("a string takes everything");
+        Ok(())
+    }
+
+    /// One number for grey, or three.
+    fn colour(&self, first: Token<'_>, rest: &[Token<'_>]) -> Result<[f64; 3], Error> {
+        match rest {
+            [grey] => Ok([self.channel(first, *grey)?; 3]),
+            [r, g, b, ..] => {
+                Ok([self.channel(first, *r)?, self.channel(first, *g)?, self.channel(first, *b)?])
+            }
+            [] => Err(first.expected(self.file, "red, green and blue after it")),
+            [_, last] => Err(last.expected(self.file, "red, green and blue")),
+        }
+    }
+
+    /// A channel of `Kd` or `Ke`, which must be one that a surface can have.
+    fn channel(&self, first: Token<'_>, word: Token<'_>) -> Result<f64, Error> {
+        let number = word.number(self.file)?;
+        let (sound, what) = match first.text {
+            "Kd" => (range::is_reflectance(number), "a reflectance from 0 to 1"),
+            _ => {
+                // Large radiance has an emittance that is no number.
+                let emittance = units::emittance_of_radiance(Rgb::splat(number));
+                (range::is_emittance(emittance[0]), "a finite radiance of at least 0")
+            }
+        };
+        if sound {
+            return Ok(number);
+        }
+        let of =
+            self.begun.last().map_or_else(String::new, |(name, _)| format!(" of material {name}"));
+        Err(word.expected(self.file, &format!("{what} as {}{of}", first.text)))
     }
 }
 
@@ -130,6 +170,7 @@ mod tests {
         let (materials, warnings) = parse("a.mtl", text).unwrap();
         let expected = MtlMaterial {
             name: "two words".into(),
+            place: "a.mtl:1".into(),
             reflectance: Some([0.25; 3]),
             radiance: Some([1.0, 2.0, 3.0]),
             reflectance_map: Some("my wall.png".into()),
@@ -154,6 +195,15 @@ mod tests {
             ("newmtl", "a.mtl:1:1: expected a material's name after it, found \"newmtl\""),
             ("newmtl a\nKd spectral x.rfl 1", "a.mtl:2:4: expected a number, found \"spectral\""),
             ("newmtl a\nKe", "a.mtl:2:1: expected red, green and blue after it, found \"Ke\""),
+            (
+                "newmtl b c\nKd 0.5 1.2 0",
+                "a.mtl:2:8: expected a reflectance from 0 to 1 as Kd of material b c, found \"1.2\"",
+            ),
+            (
+                "newmtl a\n  Ke -1",
+                "a.mtl:2:6: expected a finite radiance of at least 0 as Ke of material a, found \"-1\"",
+            ),
+            ("Kd nan", "a.mtl:1:4: expected a reflectance from 0 to 1 as Kd, found \"nan\""),
             ("map_Kd -s 1 1 1", "a.mtl:1:1: expected a file's name after it, found \"map_Kd\""),
         ] {
             assert_eq!(parse("a.mtl", text).unwrap_err().to_string(), message);

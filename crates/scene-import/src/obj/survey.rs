@@ -154,14 +154,19 @@ impl<'a> Surveyor<'a> {
             return Err(rest.last().unwrap_or(&first).expected(self.file, "three coordinates"));
         }
         self.survey.text.push('v');
-        for &word in &rest[..if rest.len() == 4 { 4 } else { 3 }] {
-            word.number(self.file)?;
+        let mut most = 0.0_f64;
+        for &word in &rest[..3] {
+            most = most.max(word.finite(self.file)?.abs());
             self.push(word.text);
         }
-        if let [_, _, _, weight] = rest
-            && weight.number(self.file)? == 0.0
-        {
-            return Err(weight.expected(self.file, "a weight other than 0"));
+        if let [_, _, _, weight] = rest {
+            // The coordinates will be divided by it.
+            let divisor = weight.finite(self.file)?;
+            if divisor == 0.0 || !(most / divisor).is_finite() {
+                let what = "a weight other than 0 that leaves the coordinates finite";
+                return Err(weight.expected(self.file, what));
+            }
+            self.push(weight.text);
         }
         self.survey.text.push('\n');
         self.counts[0] += 1;
@@ -172,12 +177,12 @@ impl<'a> Surveyor<'a> {
         let (u, v) = match rest {
             [u] => (u.text, "0"),
             [u, v, ..] => {
-                v.number(self.file)?;
+                v.finite(self.file)?;
                 (u.text, v.text)
             }
             [] => return Err(first.expected(self.file, "two numbers after it")),
         };
-        rest[0].number(self.file)?;
+        rest[0].finite(self.file)?;
         self.survey.text.push_str("vt");
         self.push(u);
         self.push(v);

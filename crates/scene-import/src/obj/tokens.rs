@@ -17,9 +17,15 @@ impl<'a> Token<'a> {
             .at(self.line.into(), self.column.into())
     }
 
-    /// The word as a number; `nan` and `inf` are numbers here, and judged later.
+    /// The word as a number; `nan` and `inf` are numbers here, for the caller to judge.
     pub(super) fn number(self, file: &str) -> Result<f64, Error> {
         self.text.parse().map_err(|_| self.expected(file, "a number"))
+    }
+
+    /// The word as a finite number.
+    pub(super) fn finite(self, file: &str) -> Result<f64, Error> {
+        let number = self.number(file)?;
+        if number.is_finite() { Ok(number) } else { Err(self.expected(file, "a finite number")) }
     }
 
     /// The word after its first `bytes` bytes.

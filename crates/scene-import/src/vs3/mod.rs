@@ -68,7 +68,7 @@ pub(crate) fn read(source: &Source<'_>, options: &Options) -> Result<Imported, E
             _ => *obstructions.get_or_insert_with(|| assembler.new_group(OBSTRUCTIONS)),
         };
         groups.push(group);
-        let material = assembler.material(material(surface))?;
+        let material = assembler.material(material(surface), place(surface.line))?;
         for piece in pieces {
             for k in 1..piece.len() - 1 {
                 assembler.triangle([piece[0], piece[k], piece[k + 1]], material, group)?;
@@ -138,8 +138,8 @@ fn is_part_of(surface: &Surface, base: &Surface) -> bool {
         && surface.corners.iter().all(|&p| (p - origin).dot(normal).abs() <= near)
 }
 
-/// Whether the corners are those of a flat convex polygon. A surface without area, or with a
-/// coordinate that is not finite, is left to other warnings.
+/// Whether the corners are those of a flat convex polygon. A surface without area, or so
+/// large that products of its coordinates are not finite, is left to other warnings.
 fn is_convex(surface: &Surface) -> bool {
     let corners = &surface.corners;
     let (normal, near) = (normal(surface), FLAT * diameter(surface));

@@ -89,7 +89,8 @@ impl Records {
     fn vertex(&mut self, words: &mut Words<'_>) -> Result<(), Error> {
         let number = self.vertices.len() + 1;
         words.whole(&format!("{number}, the number of the next vertex"), number..=number)?;
-        let [x, y, z] = ["x", "y", "z"].map(|axis| words.number(&format!("a number for {axis}")));
+        let [x, y, z] = ["x", "y", "z"]
+            .map(|axis| words.number(&format!("a finite number for {axis}"), f64::is_finite));
         self.vertices.push(DVec3::new(x?, y?, z?));
         self.nothing_more(words);
         Ok(())
@@ -134,7 +135,8 @@ impl Records {
                 Ok(earlier) => earlier,
                 Err(_) => return Err(words.expected(combine, COMBINE)),
             };
-            surface.emissivity = words.number("a number for the emissivity")?;
+            let share = |emissivity| (0.0..=1.0).contains(&emissivity);
+            surface.emissivity = words.number("an emissivity from 0 to 1", share)?;
             words.word("the surface's name")?.text.clone_into(&mut surface.name);
             self.nothing_more(words);
         }

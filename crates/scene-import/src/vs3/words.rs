@@ -52,10 +52,13 @@ impl<'a> Words<'a> {
         })
     }
 
-    /// The next word as a number; `nan` and `inf` are numbers here, and judged later.
-    pub(super) fn number(&mut self, what: &str) -> Result<f64, Error> {
+    /// The next word as a number that is `sound`; `what` says which those are.
+    pub(super) fn number(&mut self, what: &str, sound: impl Fn(f64) -> bool) -> Result<f64, Error> {
         let word = self.word(what)?;
-        word.text.parse().map_err(|_| self.expected(word, what))
+        match word.text.parse() {
+            Ok(number) if sound(number) => Ok(number),
+            _ => Err(self.expected(word, what)),
+        }
     }
 
     /// The next word as a whole number from `range`.

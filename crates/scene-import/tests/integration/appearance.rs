@@ -6,7 +6,7 @@ use scene::{Material, Rgb, Sides, TriangleId};
 use scene_import::Imported;
 
 use crate::glb::{Glb, TRIANGLE, with_material};
-use crate::{import, warnings};
+use crate::{failure, import, warnings};
 
 fn material(imported: &Imported) -> &Material {
     imported.scene.material_of(TriangleId(0))
@@ -74,21 +74,99 @@ fn a_white_base_colour_is_kept_and_named() {
     assert_eq!(material(&imported).reflectance, Rgb::splat(1.0));
     assert_eq!(
         warnings(&imported),
-        ["a.glb: material material 0: a reflectance of exactly 1 loses no light"]
+        ["materials[0]: material material 0: a reflectance of exactly 1 loses no light"]
     );
 }
 
 #[test]
-fn factors_out_of_range_are_clamped_and_named() {
-    let imported = import(
-        "a.glb",
-        with_material(
-            r#""emissiveFactor":[-1,0,0],"pbrMetallicRoughness":{"baseColorFactor":[2,-1,0.5,1],"metallicFactor":0}"#,
+fn factors_that_no_surface_can_have_are_refused_with_the_way_to_them() {
+    let strength = "extensions.KHR_materials_emissive_strength.emissiveStrength";
+    let (unit, emission) = ("a reflectance from 0 to 1", "a finite number of at least 0");
+    for (material, place, expected, found) in [
+        (
+            r#""pbrMetallicRoughness":{"baseColorFactor":[1.2,0,0,1]}"#,
+            "pbrMetallicRoughness.baseColorFactor[0]",
+            unit,
+            "1.2",
         ),
+        (
+            r#""pbrMetallicRoughness":{"baseColorFactor":[0,0,-0.1,1]}"#,
+            "pbrMetallicRoughness.baseColorFactor[2]",
+            unit,
+            "-0.1",
+        ),
+        // Less than no metal would reflect more than the base.
+        (
+            r#""pbrMetallicRoughness":{"metallicFactor":-0.5}"#,
+            "pbrMetallicRoughness.metallicFactor",
+            "a number from 0 to 1",
+            "-0.5",
+        ),
+        (r#""emissiveFactor":[0,-1,0]"#, "emissiveFactor[1]", emission, "-1"),
+        (
+            r#""extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":-2}}"#,
+            strength,
+            emission,
+            "-2",
+        ),
+    ] {
+        assert_eq!(
+            failure("a.glb", with_material(material)),
+            format!("a.glb: materials[0].{place}: expected {expected}, found {found}")
+        );
+    }
+    // JSON has no other numbers that are not finite than those that are too large for their
+    // type, here f32.
+    for wild in [
+        r#""emissiveFactor":[1e39,0,0]"#,
+        r#""emissiveFactor":[0,1e999,0]"#,
+        r#""pbrMetallicRoughness":{"baseColorFactor":[0,1e39,0,1]}"#,
+        r#""extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":1e39}}"#,
+    ] {
+        let text = failure("a.glb", with_material(wild));
+        assert!(text.starts_with("a.glb:1:"), "the place in the JSON: {text}");
+        assert!(text.ends_with(": expected glTF JSON: number out of range"), "{text}");
+    }
+}
+
+#[test]
+fn a_base_colour_above_one_by_a_rounding_is_one() {
+    // The neighbour of 1 in f32.
+    let file = with_material(
+        r#""pbrMetallicRoughness":{"baseColorFactor":[1.00000012,0.5,0.5,1],"metallicFactor":0}"#,
     );
-    assert_eq!(material(&imported).reflectance, Rgb::new(1.0, 0.0, 0.5));
-    assert_eq!(material(&imported).emittance, Rgb::ZERO);
-    assert_eq!(warnings(&imported).len(), 2);
+    let imported = import("a.glb", file);
+    assert_eq!(material(&imported).reflectance, Rgb::new(1.0, 0.5, 0.5));
+    assert_eq!(
+        warnings(&imported),
+        [
+            "materials[0]: material material 0: reflectance [1.0000001192092896, 0.5, 0.5] is above 1 by a rounding: 1 is used"
+        ]
+    );
+}
+
+#[test]
+fn vertex_colours_are_clamped_as_the_standard_says() {
+    let file = |colours: [[f32; 3]; 3]| {
+        let mut glb = Glb::default();
+        glb.floats(&TRIANGLE);
+        glb.floats(&colours);
+        glb.build(
+            r#""materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.5,1,1,1],"metallicFactor":0}}],
+            "meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}]}],"nodes":[{"mesh":0}]"#,
+        )
+    };
+    let imported = import("a.glb", file([[1.5, 0.25, -0.5], [1.0, 0.25, 0.5], [1.0, 0.25, 1.0]]));
+    assert_near(material(&imported).reflectance, [0.5, 0.25, 0.5]);
+    assert_eq!(
+        warnings(&imported),
+        ["accessors[1]: left out: what COLOR_0 has beyond [0, 1], as glTF demands"]
+    );
+    let wild = file([[0.0; 3], [0.0, f32::NAN, 0.0], [0.0; 3]]);
+    assert_eq!(
+        failure("a.glb", wild),
+        "a.glb: accessors[1]: expected finite numbers, found NaN in entry 1"
+    );
 }
 
 #[test]

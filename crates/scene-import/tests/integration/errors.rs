@@ -44,7 +44,22 @@ fn mistakes_in_obj_text_are_placed() {
     for (text, message) in [
         ("v 0 0", "a.obj:1:5: expected three coordinates, found \"0\""),
         ("v 0 0 0\nv 1 1 1e", "a.obj:2:7: expected a number, found \"1e\""),
-        ("v 0 0 0 0", "a.obj:1:9: expected a weight other than 0, found \"0\""),
+        ("v 0 nan 0", "a.obj:1:5: expected a finite number, found \"nan\""),
+        // No face uses the vertex.
+        ("v 0 0 0\nv 0 0 -inf", "a.obj:2:7: expected a finite number, found \"-inf\""),
+        ("v 1e999 0 0 1 1 1", "a.obj:1:3: expected a finite number, found \"1e999\""),
+        ("v 0 0 0 nan", "a.obj:1:9: expected a finite number, found \"nan\""),
+        ("vt 0.5 infinity", "a.obj:1:8: expected a finite number, found \"infinity\""),
+        (
+            "v 0 0 0 0",
+            "a.obj:1:9: expected a weight other than 0 that leaves the coordinates finite, \
+             found \"0\"",
+        ),
+        (
+            "v 0 0 -10 1e-308",
+            "a.obj:1:11: expected a weight other than 0 that leaves the coordinates finite, \
+             found \"1e-308\"",
+        ),
         (
             "v 0 0 0\nv 1 0 0\nf 1 2 9",
             "a.obj:3:7: expected a vertex index from 1 to 2 or from -2 to -1, found \"9\"",

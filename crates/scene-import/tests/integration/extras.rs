@@ -5,7 +5,7 @@ use scene::{Rgb, Sides, TriangleId};
 use scene_import::{Imported, Options, SidesRule, open_bytes};
 
 use crate::glb::{Glb, TRIANGLE};
-use crate::{import, warnings};
+use crate::{failure, import, warnings};
 
 const THIRD: f64 = 1.0 / 3.0;
 
@@ -17,8 +17,13 @@ fn material(name: &str, extras: &str) -> String {
 }
 
 /// A floor, and beside it a two-sided lamp with its back, both dark in `COLOR_0`; the lamp's
-/// material and further nodes and members as given.
+/// extras and further nodes and members as given.
 fn lit(lamp: &str, root: &str, members: &str) -> Vec<u8> {
+    lit_by(&material("lamp", lamp), root, members)
+}
+
+/// The same with the lamp's whole material as given.
+fn lit_by(lamp: &str, root: &str, members: &str) -> Vec<u8> {
     let mut glb = Glb::default();
     let aside = TRIANGLE.map(|[x, y, z]| [x + 2.0, y, z]);
     let corners = [glb.floats(&TRIANGLE), glb.floats(&aside)];
@@ -35,10 +40,9 @@ fn lit(lamp: &str, root: &str, members: &str) -> Vec<u8> {
         r#"{"radiosity":{"emittance":[0.0,0.0,0.0],"reflectance":[0.3333333333333333,0.5,0.1],"sides":"front"}}"#,
     );
     glb.build(&format!(
-        r#""extensionsUsed":["KHR_materials_unlit"],"materials":[{floor},{}],
+        r#""extensionsUsed":["KHR_materials_unlit"],"materials":[{floor},{lamp}],
         "meshes":[{{"name":"room","primitives":[{},{},{}]}}],
         "nodes":[{{"name":"room","mesh":0}}{root}]{members}"#,
-        material("lamp", lamp),
         primitive(0, front, ""),
         primitive(1, front, ""),
         primitive(1, back, r#","extras":{"radiosity":{"face":"back"}}"#),
@@ -106,12 +110,37 @@ fn malformed_extras_are_told_and_gltfs_own_rule_holds() {
 }
 
 #[test]
-fn values_that_no_surface_has_are_clamped_as_ever() {
-    let wild = r#"{"radiosity":{"reflectance":[1.5,0,0],"emittance":[-1,0,2],"sides":"front"}}"#;
-    let imported = import("lit.glb", lit(wild, "", ""));
-    let (_, reflectance, emittance, _) = surface(&imported, 1);
-    assert_eq!((reflectance, emittance), (Rgb::new(1.0, 0.0, 0.0), Rgb::new(0.0, 0.0, 2.0)));
-    assert_eq!(imported.diagnostics.len(), 2);
+fn values_that_no_surface_can_have_are_refused() {
+    let path = "lit.glb: materials[1].extras.radiosity";
+    for (reflectance, emittance, message) in [
+        ("0,1.5,0", "0,0,0", "reflectance[1]: expected a reflectance from 0 to 1, found 1.5"),
+        ("-0.1,0,0", "0,0,0", "reflectance[0]: expected a reflectance from 0 to 1, found -0.1"),
+        ("0,0,0", "0,0,-1", "emittance[2]: expected a finite number of at least 0, found -1"),
+    ] {
+        let wild = format!(
+            r#"{{"radiosity":{{"reflectance":[{reflectance}],"emittance":[{emittance}],"sides":"front"}}}}"#
+        );
+        assert_eq!(failure("lit.glb", lit(&wild, "", "")), format!("{path}.{message}"));
+    }
+    let wild = r#"{"radiosity":{"reflectance":[0,0,0],"emittance":[1e999,0,2],"sides":"front"}}"#;
+    assert_eq!(
+        failure("lit.glb", lit(wild, "", "")),
+        format!("{path}: expected numbers that f64 can hold: number out of range")
+    );
+    // Elsewhere in extras such a number is none of ours.
+    let other = LAMP.replacen('{', r#"{"theirs":1e999,"#, 1);
+    assert_eq!(import("lit.glb", lit(&other, "", "")).diagnostics, []);
+    // As emittance it is a number, though as radiance it would not be.
+    let bright = LAMP.replace("1e+300", "1e308");
+    assert_eq!(surface(&import("lit.glb", lit(&bright, "", "")), 1).2[2], 1e308);
+    // What is only shown counts for nothing where a surface is stated.
+    let shown = material("lamp", LAMP).replace("[1.0,1.0,1.0,1.0]", "[7.0,1.0,1.0,1.0]");
+    assert_eq!(import("lit.glb", lit_by(&shown, "", "")).diagnostics, []);
+    // Another program may leave the last digit of a double off.
+    let near = LAMP.replace("0.7,", "1.0000000000000002,");
+    let imported = import("lit.glb", lit(&near, "", ""));
+    assert_eq!(surface(&imported, 1).1, Rgb::new(1.0, 0.0, 1e-9));
+    assert_eq!(imported.diagnostics.len(), 1);
 }
 
 #[test]

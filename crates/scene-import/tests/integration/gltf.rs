@@ -187,21 +187,45 @@ fn what_a_scene_cannot_hold_is_told() {
 }
 
 #[test]
-fn wild_vertices_collapse_their_triangle_in_its_place() {
-    let mut glb = Glb::default();
-    let mut positions = [TRIANGLE, TRIANGLE].concat();
-    positions[1][0] = f32::NAN;
-    glb.floats(&positions);
-    let imported = import("a.glb", glb.build(&format!(
-        r#"{MATERIAL},"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"material":0}}]}}],"nodes":[{{"mesh":0}}]"#
-    )));
-    assert_eq!(corners(&imported, 0), [[0.0; 3]; 3]);
-    assert_eq!(imported.scene.area(TriangleId(1)), 0.5);
+fn coordinates_that_are_not_finite_are_refused() {
+    for (wild, found) in [(f32::NAN, "NaN"), (f32::INFINITY, "inf"), (f32::NEG_INFINITY, "-inf")] {
+        let mut glb = Glb::default();
+        let mut positions = [TRIANGLE, TRIANGLE].concat();
+        positions[4][2] = wild;
+        glb.floats(&positions);
+        let file = glb.build(&format!(
+            r#"{MATERIAL},"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"material":0}}]}}],"nodes":[{{"mesh":0}}]"#
+        ));
+        assert_eq!(
+            failure("a.glb", file),
+            format!("a.glb: accessors[0]: expected finite numbers, found {found} in entry 4")
+        );
+    }
+    // f32 has no 1e39.
+    for transform in ["\"translation\":[0,1e39,0]", "\"scale\":[1,1,-1e39]"] {
+        let file = triangle_with(&format!(r#""nodes":[{{"mesh":0,{transform}}}]"#));
+        let text = failure("a.glb", file);
+        assert!(text.ends_with("expected glTF JSON: number out of range"), "{text}");
+    }
+}
+
+#[test]
+fn triangles_that_a_transform_loses_collapse_in_their_place() {
+    // Nine times 10³⁸ is beyond f64, and a rotation of length 0 turns to nowhere.
+    let grown: Vec<_> =
+        (0..9).map(|i| format!(r#"{{"scale":[1e38,1e38,1e38],"children":[{}]}}"#, i + 1)).collect();
+    let nodes = grown.join(",");
+    let file = triangle_with(&format!(
+        r#""nodes":[{nodes},{{"mesh":0}},{{"mesh":0,"rotation":[0,0,0,0]}},{{"mesh":0}}]"#
+    ));
+    let imported = import("a.glb", file);
+    assert_eq!([0, 1].map(|i| imported.scene.area(TriangleId(i))), [0.0; 2]);
+    assert_eq!(imported.scene.area(TriangleId(2)), 0.5);
+    let lost =
+        "triangle 0: a coordinate is not finite: the triangle is collapsed to a point".to_owned();
     assert_eq!(
         warnings(&imported),
-        [
-            "nodes[0].mesh[0].primitives[0].triangle 0: a coordinate is not finite: the triangle is collapsed to a point"
-        ]
+        [9, 10].map(|node| format!("nodes[{node}].mesh[0].primitives[0].{lost}"))
     );
 }
 

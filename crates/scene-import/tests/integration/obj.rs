@@ -108,21 +108,62 @@ fn lines_points_and_short_faces_make_no_triangles_and_are_named() {
 }
 
 #[test]
-fn triangles_with_wild_coordinates_keep_their_place() {
-    let text = "v 0 0 0\nv nan 0 0\nv 1 1e999 0\nv 1 0 0\nv 0 1 0\n\
-                usemtl m\ng wild\nf 2 4 5\nf 2 3 2\nf 1 4 5\n";
-    let imported = import("a.obj", text);
-    assert_eq!(corners(&imported, 0), [[1.0, 0.0, 0.0]; 3]);
-    assert_eq!(corners(&imported, 1), [[0.0; 3]; 3]);
-    assert_eq!(imported.scene.area(TriangleId(2)), 0.5);
-    let notes: Vec<_> = imported.diagnostics.iter().filter(|d| d.triangle.is_some()).collect();
-    assert_eq!(
-        notes.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        [
-            "a.obj:8: group wild, face 1: a coordinate is not finite: the triangle is collapsed to a point",
-            "a.obj:9: group wild, face 2: a coordinate is not finite: the triangle is collapsed to a point",
-        ]
-    );
+fn numbers_that_no_surface_can_have_are_refused_where_they_stand() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.obj");
+    fs::write(&path, format!("mtllib a.mtl\nusemtl a\n{SQUARE}f 1 2 3\n")).unwrap();
+    let opened = |library: &str| {
+        fs::write(folder.path().join("a.mtl"), library).unwrap();
+        open(&path, &Options::default())
+    };
+    let reflectance = "a reflectance from 0 to 1 as Kd";
+    let radiance = "a finite radiance of at least 0 as Ke";
+    for (statement, expected, found) in [
+        ("Kd 1.2 0 0", reflectance, "1.2"),
+        ("Kd 0 0 -.1", reflectance, "-.1"),
+        ("Kd nan 0 0", reflectance, "nan"),
+        ("Kd inf", reflectance, "inf"),
+        ("Ke 0 -1 0", radiance, "-1"),
+        ("Ke 0 1e999 0", radiance, "1e999"),
+        // Its emittance, π times as much, is not finite.
+        ("Ke 1e308", radiance, "1e308"),
+    ] {
+        // No face uses the material: what it says is wrong all the same.
+        let library = format!("newmtl a\nKd 0.5\n\nnewmtl b c\nNs 1\n{statement}\n");
+        let error = opened(&library).unwrap_err();
+        let column = statement.find(found).unwrap() + 1;
+        assert_eq!(
+            error.to_string(),
+            format!("a.mtl:6:{column}: expected {expected} of material b c, found {found:?}")
+        );
+        assert_eq!((error.line(), error.column()), (Some(6), Some(column as u64)));
+    }
+    // Off by the seventh digit at most, it stands for 1.
+    let imported = opened("# Ours.\nnewmtl a\nKd 1.000001 0 0\n").unwrap();
+    assert_eq!(imported.scene.material_of(TriangleId(0)).reflectance, Rgb::new(1.0, 0.0, 0.0));
+    let told = "a.mtl:2: material a: reflectance [1.000001, 0.0, 0.0] is above 1 by a rounding: \
+                1 is used";
+    assert_eq!(warnings(&imported), [told]);
+    // The smallest numbers are numbers.
+    let imported = opened("newmtl a\nKd 1e-320 0 0\nKe 0 0 1e-320\n").unwrap();
+    assert_eq!(imported.diagnostics, []);
+    assert!(imported.scene.material_of(TriangleId(0)).emits());
+}
+
+#[test]
+fn warnings_about_a_material_tell_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = "newmtl a\nKd 1 1 1\n\nnewmtl b\nNs 3\n\nnewmtl c\nKd 1\nmap_Kd gone.png\n";
+    fs::write(folder.path().join("a.mtl"), library).unwrap();
+    let text =
+        format!("mtllib a.mtl\n{SQUARE}usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\nusemtl c\nf 2 3 4\n");
+    fs::write(folder.path().join("a.obj"), text).unwrap();
+    let told = warnings(&open(&folder.path().join("a.obj"), &Options::default()).unwrap());
+    assert_eq!(told[0], "a.mtl:1: material a: a reflectance of exactly 1 loses no light");
+    assert_eq!(told[1], "a.mtl:4: Kd of material b is missing: grey of reflectance 0.5 is used");
+    assert!(told[2].starts_with("a.mtl:7: texture gone.png is left out, white is used: "));
+    assert_eq!(told[3], "a.mtl:7: material c: a reflectance of exactly 1 loses no light");
+    assert_eq!(told.len(), 4);
 }
 
 #[test]
@@ -131,7 +172,7 @@ fn materials_and_what_is_missing_of_them() {
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write(
         "my lib.mtl",
-        "newmtl lamp\nKd 0.1 0.2 0.3\nKe 17 12 -4\nnewmtl bare\nNs 3\nnewmtl hot\nKd 1.5 0 0\n",
+        "newmtl lamp\nKd 0.1 0.2 0.3\nKe 17 12 0\nnewmtl bare\nNs 3\nnewmtl hot\nKd 1 0 0\n",
     );
     write("other.mtl", "newmtl wall\nKd 0.9 0.9 0.9\nmap_Kd absent.png\n");
     let mut text = format!("mtllib my lib.mtl\nmtllib other.mtl gone.mtl\n{SQUARE}");
@@ -142,7 +183,7 @@ fn materials_and_what_is_missing_of_them() {
     let imported = open(&folder.path().join("a.obj"), &Options::default()).unwrap();
     let material = |i: u32| imported.scene.material_of(TriangleId(i));
     assert_eq!(material(0).reflectance, Rgb::new(0.1, 0.2, 0.3));
-    // A Lambertian emitter of radiance L has exitance πL; the negative channel is clamped.
+    // A Lambertian emitter of radiance L has exitance πL.
     assert_eq!(material(0).emittance, Rgb::new(17.0 * PI, 12.0 * PI, 0.0));
     assert_eq!(material(1).reflectance, Rgb::splat(0.5));
     assert_eq!(material(2).reflectance, Rgb::new(1.0, 0.0, 0.0));
@@ -159,25 +200,19 @@ fn materials_and_what_is_missing_of_them() {
     assert!(file_notes[0].ends_with("is missing: grey of reflectance 0.5 is used"));
     assert_eq!(
         file_notes[1],
-        format!(
-            "a.obj: material lamp: emittance {:?} is clamped to finite values of at least 0",
-            [17.0 * PI, 12.0 * PI, -4.0 * PI]
-        )
+        "my lib.mtl:4: Kd of material bare is missing: grey of reflectance 0.5 is used"
     );
     assert_eq!(
         file_notes[2],
-        "a.obj:9: Kd of material bare is missing: grey of reflectance 0.5 is used"
+        "my lib.mtl:6: material hot: a reflectance of exactly 1 loses no light"
     );
+    let absent = "other.mtl:1: texture absent.png is left out, white is used: ";
+    assert!(file_notes[3].starts_with(absent));
     assert_eq!(
-        file_notes[3],
-        "a.obj: material hot: reflectance [1.5, 0.0, 0.0] is clamped to [0, 1]"
-    );
-    assert!(file_notes[4].starts_with("a.obj:13: texture absent.png is left out, white is used: "));
-    assert_eq!(
-        file_notes[5],
+        file_notes[4],
         "a.obj:15: material nobody is missing: grey of reflectance 0.5 is used"
     );
-    assert_eq!(file_notes.len(), 6);
+    assert_eq!(file_notes.len(), 5);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! .tri: colours to reflectance and emittance, normals, sides.
 
 use scene::{Rgb, Sides, TriangleId};
-use scene_import::{DiagnosticKind, Options, SidesRule, open_bytes};
+use scene_import::{ErrorKind, Options, SidesRule, open_bytes};
 
 use crate::{import, warnings};
 
@@ -30,29 +30,32 @@ fn colours_become_reflectance_and_emittance() {
 
 #[test]
 fn options_scale_light_and_reflectance_and_choose_sides() {
-    let options = Options { tri_light: 2.0, tri_reflect: 1.5, sides: SidesRule::Both };
+    let options = Options { tri_light: 2.0, tri_reflect: 0.25, sides: SidesRule::Both };
     let imported = open_bytes("a.tri", LAMP.as_bytes(), &options).unwrap();
     let [plain, lamp] = [0, 1].map(|i| imported.scene.material_of(TriangleId(i)));
     assert_eq!(lamp.emittance, Rgb::new(51_000.0, 2_000.0, 0.0));
     assert_eq!(lamp.sides, Sides::Both);
-    // 1.5 · 255/255 is clamped, with the stated value in the warning.
-    assert_eq!(plain.reflectance[2], 1.0);
-    let stated = Rgb::new(1.5 * 51.0 / 255.0, 1.5 * 102.0 / 255.0, 1.5);
-    let kinds: Vec<_> = imported.diagnostics.iter().map(|d| d.kind.clone()).collect();
-    assert_eq!(kinds, [DiagnosticKind::ReflectanceClamped { stated }]);
+    // 0.25 · 51/255, 0.25 · 102/255 and 0.25 · 255/255.
+    assert_eq!(plain.reflectance, Rgb::new(0.05, 0.1, 0.25));
+    assert_eq!(imported.diagnostics, []);
 }
 
 #[test]
-fn values_that_are_no_numbers_become_zero_with_a_warning() {
-    let options = Options { tri_light: f64::NAN, tri_reflect: -1.0, ..Options::default() };
-    let imported = open_bytes("a.tri", LAMP.as_bytes(), &options).unwrap();
-    let materials = imported.scene.materials();
-    assert!(materials.iter().all(|m| m.reflectance == Rgb::ZERO && m.emittance == Rgb::ZERO));
-    let kinds: Vec<_> = imported.diagnostics.iter().map(|d| &d.kind).collect();
-    assert!(matches!(
-        kinds[..],
-        [DiagnosticKind::ReflectanceClamped { .. }, DiagnosticKind::EmittanceClamped { .. }]
-    ));
+fn options_that_make_impossible_surfaces_are_refused() {
+    for (tri_light, tri_reflect, what) in [
+        (1.0, 1.5, "reflectance [0.3"),
+        (1.0, -1.0, "reflectance [-0.2, "),
+        (1.0, f64::NAN, "reflectance [NaN, "),
+        (-1.0, 0.5, "emittance [-25500.0, "),
+        (f64::INFINITY, 0.5, "emittance [inf, "),
+        (f64::NAN, 0.5, "emittance [NaN, "),
+    ] {
+        let options = Options { tri_light, tri_reflect, ..Options::default() };
+        let error = open_bytes("a.tri", LAMP.as_bytes(), &options).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Invalid);
+        let text = error.to_string();
+        assert!(text.starts_with("a.tri: material ") && text.contains(what), "{text}");
+    }
 }
 
 #[test]
@@ -62,7 +65,7 @@ fn a_reflectance_of_exactly_one_is_kept_and_named() {
     assert_eq!(imported.scene.material_of(TriangleId(0)).reflectance[2], 1.0);
     assert_eq!(
         warnings(&imported),
-        ["a.tri: material 51 102 255: a reflectance of exactly 1 loses no light"]
+        ["a.tri:1: material 51 102 255: a reflectance of exactly 1 loses no light"]
     );
 }
 

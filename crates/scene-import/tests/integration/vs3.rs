@@ -173,9 +173,9 @@ fn what_blocks_without_radiating_is_black_and_apart() {
 #[test]
 fn mistakes_are_placed() {
     for (text, message) in [
-        ("V 1 0 0", "1:8: expected a number for z, found the end of the line"),
-        ("V 1 0 0 ! 3", "1:12: expected a number for z, found the end of the line"),
-        ("V 1 0 0 0\r\nV 2 0 0 x\r\n", "2:9: expected a number for z, found \"x\""),
+        ("V 1 0 0", "1:8: expected a finite number for z, found the end of the line"),
+        ("V 1 0 0 ! 3", "1:12: expected a finite number for z, found the end of the line"),
+        ("V 1 0 0 0\r\nV 2 0 0 x\r\n", "2:9: expected a finite number for z, found \"x\""),
         ("V 1 0 0 0\nV 3 0 0 0", "2:3: expected 2, the number of the next vertex, found \"3\""),
         (
             "V 1 0 0 0\nS 1 1 1 2 0 0 0 .9 a",
@@ -207,11 +207,26 @@ fn mistakes_are_placed() {
         ),
         (
             "V 1 0 0 0\nS 1 1 1 1 0 0 0",
-            "2:16: expected a number for the emissivity, found the end of the line",
+            "2:16: expected an emissivity from 0 to 1, found the end of the line",
         ),
         (
             "V 1 0 0 0\nS 1 1 1 1 0 0 0 .9",
             "2:19: expected the surface's name, found the end of the line",
+        ),
+        ("V 1 nan 0 0", "1:5: expected a finite number for x, found \"nan\""),
+        ("V 1 0 -inf 0", "1:7: expected a finite number for y, found \"-inf\""),
+        ("V 1 0 0 1e999", "1:9: expected a finite number for z, found \"1e999\""),
+        (
+            "V 1 0 0 0\nS 1 1 1 1 0 0 0 1.2 a",
+            "2:17: expected an emissivity from 0 to 1, found \"1.2\"",
+        ),
+        (
+            "V 1 0 0 0\nS 1 1 1 1 0 0 0 -.1 a",
+            "2:17: expected an emissivity from 0 to 1, found \"-.1\"",
+        ),
+        (
+            "V 1 0 0 0\nS 1 1 1 1 0 0 0 nan a",
+            "2:17: expected an emissivity from 0 to 1, found \"nan\"",
         ),
         ("F 3a", "1:3: expected format 3, which lists vertices and surfaces, found \"3a\""),
         (
@@ -224,16 +239,16 @@ fn mistakes_are_placed() {
 }
 
 #[test]
-fn odd_values_and_words_are_warnings() {
-    let text = "X 1 2\nV 1 0 0 0 origin\nV 2 1e999 0 0\nV 3 0 nan 0\nS 1 1 2 3 0 0 0 1.5 a b\n";
+fn odd_words_and_sizes_are_warnings() {
+    let text = "X 1 2\nV 1 0 0 0 origin\nV 2 1e-320 0 0\nV 3 0 1e-320 0\nS 1 1 2 3 0 0 0 0 a b\n";
     assert_eq!(
         warnings(&import("a.vs3", text)),
         [
             "a.vs3:1: left out: a coordinate transformation",
             "a.vs3:2: left out: the line from \"origin\" on",
             "a.vs3:5: left out: the line from \"b\" on",
-            "a.vs3: material emissivity 1.5: reflectance [-0.5, -0.5, -0.5] is clamped to [0, 1]",
-            "a.vs3:5: a coordinate is not finite: the triangle is collapsed to a point",
+            "a.vs3:5: material emissivity 0: a reflectance of exactly 1 loses no light",
+            "a.vs3:5: the triangle has no area",
         ]
     );
 }

@@ -142,79 +142,172 @@ fn broken_files_name_the_place() {
     assert_eq!(error(&wide), "broken.tri:2:5: expected an integer from 0 to 255, found \"300\"");
 }
 
-/// Refused, with the line: what no file may say.
-fn refused(name: &str, text: &str, line: u64) {
-    let error = open_bytes(name, text.as_bytes(), &Options::default()).unwrap_err();
+const TRI: &str = "Triangle\n1 2 3 0 0 0\n0 0 0\n1 0 0\n0 1 0\n";
+const VS3: &str = "V 1 0 0 0\nV 2 1 0 0\nV 3 0 1 0\nS 1 1 2 3 0 0 0 0.5 wall\n";
+const OBJ: &str = "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
+const MTL: &str = "newmtl m\nKd 0.5 0.5 0.5\nKe 0 0 3\n";
+const RIGHT: [f32; 9] = [0., 0., 0., 1., 0., 0., 0., 1., 0.];
+const GLTF: &str = r#""pbrMetallicRoughness":{"baseColorFactor":[0.5,0.5,0.5,1],"metallicFactor":0},
+"emissiveFactor":[0,0,1]"#;
+const EXTRAS: &str =
+    r#""extras":{"radiosity":{"reflectance":[0.5,0.5,0.5],"emittance":[0,0,3],"sides":"front"}}"#;
+
+/// The one error of a file: a line that begins with the place.
+fn refused(opened: Result<Imported, scene_import::Error>, place: &str) {
+    let error = opened.unwrap_err().to_string();
     println!("{error}");
-    assert_eq!(error.line(), Some(line), "{error}");
-    assert!(error.to_string().starts_with(&format!("{name}:{line}:")), "{error}");
+    assert!(error.starts_with(&format!("{place}: expected ")), "{place}: {error}");
+    assert!(error.lines().count() == 1 && error.contains(", found "), "{error}");
+}
+
+fn text(name: &str, text: &str) -> Result<Imported, scene_import::Error> {
+    open_bytes(name, text.as_bytes(), &Options::default())
+}
+
+/// An OBJ file with its library.
+fn obj(file: &str, library: &str) -> Result<Imported, scene_import::Error> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("t.obj"), file).unwrap();
+    std::fs::write(folder.path().join("t.mtl"), library).unwrap();
+    scene_import::open(&folder.path().join("t.obj"), &Options::default())
+}
+
+/// A glTF file of one triangle.
+fn gltf(
+    corners: [f32; 9],
+    indices: [u8; 3],
+    material: &str,
+) -> Result<Imported, scene_import::Error> {
+    let bytes = corners.into_iter().flat_map(f32::to_le_bytes).chain(indices);
+    let data: String = bytes.map(|byte| format!("%{byte:02x}")).collect();
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":39,"uri":"data:,{data}"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":3}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+        {{"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR"}}],"materials":[{{{material}}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"material":0}}]}}],"nodes":[{{"mesh":0}}]}}"#
+    );
+    text("t.gltf", &json)
+}
+
+/// Without their mistakes the files of the tests below are sound.
+#[test]
+fn the_files_to_break_are_sound() {
+    let files = [
+        text("t.tri", TRI),
+        text("t.vs3", VS3),
+        obj(OBJ, MTL),
+        gltf(RIGHT, [0, 1, 2], GLTF),
+        gltf(RIGHT, [0, 1, 2], EXTRAS),
+    ];
+    for file in files {
+        let imported = file.unwrap();
+        assert_eq!((imported.scene.triangles().len(), imported.diagnostics.len()), (1, 0));
+    }
+}
+
+#[test]
+fn rho_gt_1_or_negative() {
+    // .tri states reflectance in steps of which there are 256.
+    for (rho, column) in [("256 2 3", 1), ("1 -1 3", 3), ("1 2 nan", 5), ("1 2 1.2", 5)] {
+        refused(text("t.tri", &TRI.replace("1 2 3", rho)), &format!("t.tri:2:{column}"));
+    }
+    for rho in ["1.2", "-0.1", "nan", "NaN", "inf"] {
+        // An emissivity is 1 − ρ, and as far out of range.
+        refused(text("t.vs3", &VS3.replace("0.5", rho)), "t.vs3:4:17");
+        refused(obj(OBJ, &MTL.replace("0.5 0.5 0.5", &format!("0.5 {rho} 0.5"))), "t.mtl:2:8");
+        refused(obj(OBJ, &MTL.replace("0.5 0.5 0.5", rho)), "t.mtl:2:4");
+    }
+    for rho in ["1.2", "-0.1"] {
+        let wrong = |text: &str| text.replace("[0.5,0.5", &format!("[0.5,{rho}"));
+        let base = "t.gltf: materials[0].pbrMetallicRoughness.baseColorFactor[1]";
+        refused(gltf(RIGHT, [0, 1, 2], &wrong(GLTF)), base);
+        let ours = "t.gltf: materials[0].extras.radiosity.reflectance[1]";
+        refused(gltf(RIGHT, [0, 1, 2], &wrong(EXTRAS)), ours);
+    }
+    // JSON has no word for what is no number.
+    for material in [GLTF, EXTRAS] {
+        let error = gltf(RIGHT, [0, 1, 2], &material.replace("[0.5,0.5", "[0.5,NaN")).unwrap_err();
+        assert!(error.line().is_some() && error.column().is_some(), "{error}");
+    }
 }
 
 #[test]
 fn nan_inf_denormal() {
-    let tri = |corner: &str| format!("Triangle\n1 2 3 0 0 0\n0 0 0\n1 0 0\n{corner}\n");
+    // Vertices.
     for word in ["nan", "NaN", "inf", "-inf", "infinity", "1e999"] {
-        refused("t.tri", &tri(&format!("0 {word} 0")), 5);
+        refused(text("t.tri", &TRI.replace("0 1 0", &format!("0 {word} 0"))), "t.tri:5:3");
+        refused(text("t.vs3", &VS3.replace("0 1 0", &format!("0 {word} 0"))), "t.vs3:3:7");
+        refused(obj(&OBJ.replace("0 1 0", &format!("0 {word} 0")), MTL), "t.obj:4:5");
+        // A vertex that no face uses is a mistake as well.
+        refused(obj(&format!("{OBJ}v {word} 0 0\n"), MTL), "t.obj:7:3");
     }
-    for colours in
-        ["-1 0 0 0 0 0", "nan 0 0 0 0 0", "0 0 0 0 0 -1", "0 0 0 256 0 0", "0.5 0 0 0 0 0"]
-    {
-        refused("t.tri", &tri("0 1 0").replace("1 2 3 0 0 0", colours), 2);
+    for wild in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let corners = [0., 0., 0., 1., 0., 0., 0., wild, 0.];
+        refused(gltf(corners, [0, 1, 2], GLTF), "t.gltf: accessors[0]");
     }
-    let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    // Emission.
+    for (colour, column) in [("-1 0 0", 7), ("0 nan 0", 9), ("0 0 256", 11)] {
+        let wrong = TRI.replace("3 0 0 0", &format!("3 {colour}"));
+        refused(text("t.tri", &wrong), &format!("t.tri:2:{column}"));
+    }
+    for word in ["-1", "nan", "inf", "1e999"] {
+        refused(obj(OBJ, &MTL.replace("0 0 3", &format!("0 {word} 3"))), "t.mtl:3:6");
+    }
+    let wrong = GLTF.replace("[0,0,1]", "[0,-1,1]");
+    refused(gltf(RIGHT, [0, 1, 2], &wrong), "t.gltf: materials[0].emissiveFactor[1]");
+    let wrong = EXTRAS.replace("[0,0,3]", "[0,-1,3]");
+    refused(gltf(RIGHT, [0, 1, 2], &wrong), "t.gltf: materials[0].extras.radiosity.emittance[1]");
+    for (material, zero) in [(GLTF, "[0,0,1]"), (EXTRAS, "[0,0,3]")] {
+        let wrong = material.replace(zero, "[0,1e999,0]");
+        let error = gltf(RIGHT, [0, 1, 2], &wrong).unwrap_err().to_string();
+        assert!(error.starts_with("t.gltf:") && error.ends_with("number out of range"), "{error}");
+    }
+    // Indices.
     for index in ["4", "0", "-4", "99999999999999999999", "x", "nan"] {
-        refused("t.obj", &obj.replace("1 2 3", &format!("1 2 {index}")), 4);
+        refused(obj(&OBJ.replace("1 2 3", &format!("1 2 {index}")), MTL), "t.obj:6:7");
     }
-    // Lengths that f64 can hardly tell from 0 count as 0: the triangle stays, is warned about,
-    // and takes no part.
-    let cube = "Triangle\n255 255 255 255 255 255\n0 0 0\n1 0 0\n0 1 0\n";
+    for index in ["4", "-1", "99999999999999999999", "x", "nan"] {
+        let wrong = VS3.replace("S 1 1 2 3", &format!("S 1 1 2 {index}"));
+        refused(text("t.vs3", &wrong), "t.vs3:4:9");
+    }
+    for index in [3, 255] {
+        let place = "t.gltf: nodes[0].mesh[0].primitives[0].indices";
+        refused(gltf(RIGHT, [0, 1, index], GLTF), place);
+    }
+    denormal_lengths_are_none();
+}
+
+/// Lengths that f64 can hardly tell from 0 count as 0: the triangle stays, is warned about,
+/// and takes no part.
+fn denormal_lengths_are_none() {
+    let bright = TRI.replace("1 2 3 0 0 0", "255 255 255 255 255 255");
     for tiny in ["1e-320", "-4.9e-324", "1e-310"] {
-        let text =
-            format!("{cube}Triangle\n255 255 255 255 255 255\n0 0 0\n{tiny} 0 0\n0 {tiny} 0\n");
-        let imported = open_bytes("t.tri", text.as_bytes(), &Options::default()).unwrap();
+        let small = bright.replace("1 0 0\n0 1 0", &format!("{tiny} 0 0\n0 {tiny} 0"));
+        let imported = text("t.tri", &format!("{bright}{small}")).unwrap();
         let kinds: Vec<_> =
             imported.diagnostics.iter().map(|d| (d.place.as_str(), &d.kind)).collect();
         assert_eq!(kinds, [("t.tri:6", &DiagnosticKind::Degenerate)]);
         let config = ShootingConfig::until(1e-3);
         let solved = solve(&imported.scene, 16, config, Engine::FIRST).unwrap();
-        assert!(
-            solved.solution.elements.iter().all(|e| e.triangle.0 == 0 && e.exitance[0] == 25_500.0)
-        );
-    }
-    // A denormal among sound coordinates is no more than a rounding.
-    let imported = open_bytes("t.tri", tri("1e-320 1 0").as_bytes(), &Options::default()).unwrap();
-    assert!(imported.diagnostics.is_empty());
-}
-
-/// OBJ knows `nan` and any reflectance: they are repaired, and every repair is a warning that
-/// names its place.
-#[test]
-fn obj_numbers_that_no_scene_holds_are_warned_about() {
-    let folder = tempfile::tempdir().unwrap();
-    let open = |vertex: &str, material: &str| {
-        let text = format!("mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv {vertex} 1 0\nusemtl m\nf 1 2 3\n");
-        std::fs::write(folder.path().join("t.obj"), text).unwrap();
-        std::fs::write(folder.path().join("t.mtl"), format!("newmtl m\n{material}\n")).unwrap();
-        scene_import::open(&folder.path().join("t.obj"), &Options::default())
-    };
-    assert!(open("0", "Kd .5 .5 .5").unwrap().diagnostics.is_empty());
-    for (vertex, material) in [
-        ("nan", "Kd .5 .5 .5"),
-        ("inf", "Kd .5 .5 .5"),
-        ("0", "Kd 1.2 .5 .5"),
-        ("0", "Kd -.1 .5 .5"),
-        ("0", "Kd nan .5 .5"),
-        ("0", "Kd .5 .5 .5\nKe -1 0 0"),
-        ("0", "Kd .5 .5 .5\nKe inf 0 0"),
-    ] {
-        match open(vertex, material) {
-            Ok(imported) => {
-                println!("{vertex}, {material}: {}", imported.diagnostics[0]);
-                assert_eq!(imported.diagnostics.len(), 1);
-                let corners = imported.scene.ids().map(|id| imported.scene.corners(id));
-                assert!(corners.flatten().all(|p| p.is_finite()));
-            }
-            Err(error) => println!("{vertex}, {material}: {error}"),
+        let lit = |e: &scene::SolutionElement| e.triangle.0 == 0 && e.exitance[0] == 25_500.0;
+        assert!(solved.solution.elements.iter().all(lit));
+        // In the other formats likewise, but for glTF: f32 ends before.
+        let length = format!("{tiny} 0 0");
+        for imported in [
+            obj(&OBJ.replace("v 1 0 0", &format!("v {length}")), MTL),
+            text("t.vs3", &VS3.replace("V 2 1 0 0", &format!("V 2 {length}"))),
+        ] {
+            let diagnostics = imported.unwrap().diagnostics;
+            let kinds: Vec<_> = diagnostics.iter().map(|d| &d.kind).collect();
+            assert_eq!(kinds, [&DiagnosticKind::Degenerate]);
         }
     }
+    // The smallest f32 is 1.4e-45; half an area of its square is still above 0 in f64.
+    let least = f32::from_bits(1);
+    let corners = [0., 0., 0., least, 0., 0., 0., least, 0.];
+    assert!(gltf(corners, [0, 1, 2], GLTF).is_ok());
+    // A denormal among sound coordinates is no more than a rounding.
+    let imported = text("t.tri", &TRI.replace("0 1 0", "1e-320 1 0")).unwrap();
+    assert!(imported.diagnostics.is_empty());
 }
