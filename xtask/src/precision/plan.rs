@@ -8,12 +8,12 @@ use super::numbers::{percent, seconds};
 use super::program::{Program, Said};
 use super::subject::Subject;
 
-/// Runs of one solve.
-const RUNS: usize = 5;
+/// Runs of one solve: enough for a middle one, few enough for a coffee.
+const RUNS: usize = 3;
 
 /// Runs of a solve that takes longer than [`LONG`]: the machine's moods average out.
-const LONG_RUNS: usize = 3;
-const LONG: f64 = 5.0;
+const LONG_RUNS: usize = 2;
+const LONG: f64 = 10.0;
 
 /// What every scene is solved with.
 pub(super) struct Plan {
