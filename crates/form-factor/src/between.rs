@@ -73,6 +73,7 @@ pub fn between(a: &Polygon, b: &Polygon, tolerance: f64) -> Estimate {
             value: (far.value * share).min(1.0),
             error: far.error * share,
             effort: far.effort,
+            visibility: false,
         };
     }
     match Pair::new(a, b) {
@@ -96,6 +97,7 @@ impl Exchange {
             value: (self.value / area).clamp(0.0, 1.0),
             error: self.error / area,
             effort: self.effort,
+            visibility: false,
         }
     }
 
@@ -120,6 +122,12 @@ pub(crate) fn exchange(small: &Part, large: &Part, tolerance: f64) -> Exchange {
         return near;
     }
     without_cancelling(small, large, tolerance, near)
+}
+
+/// The same for pieces that may be slivers or nearly coplanar, where the contour cancels: no other
+/// way is tried, and the error says what rounding denies.
+pub(crate) fn unblocked(small: &Part, large: &Part, tolerance: f64) -> Exchange {
+    apart(small, large, tolerance).unwrap_or_else(|| near(small, &large.corners, tolerance))
 }
 
 /// Another way where rounding denies the tolerance to the contour: polygons that are apart, but
@@ -158,7 +166,7 @@ fn far(small: &Part, large: &Part, tolerance: f64) -> Option<Exchange> {
     }
     let a = Polygon::part(small.corners.clone(), small.normal)?;
     let b = Polygon::part(large.corners.clone(), large.normal)?;
-    let Estimate { value, error, effort } = product(&a, &b, tolerance)?;
+    let Estimate { value, error, effort, .. } = product(&a, &b, tolerance)?;
     Some(Exchange { value: value * a.area(), error: error * a.area(), effort })
 }
 

@@ -3,8 +3,9 @@
 
 use glam::DVec3;
 
+use crate::clip::cut;
 use crate::corners::Corners;
-use crate::shadow::{Blocker, Plane, subtract};
+use crate::shadow::Blocker;
 
 /// Planes to try: a wall that covers all is among the first few or not there.
 const MOST_PLANES: usize = 16;
@@ -13,12 +14,12 @@ const MOST_PLANES: usize = 16;
 const MOST_CORNERS: usize = 64;
 
 /// Whether no straight line from `one` to `two` gets past the blockers of some plane.
-pub(crate) fn covers(blockers: &[Blocker], one: &[DVec3], two: &[DVec3], touches: f64) -> bool {
+pub(crate) fn covers(blockers: &[&Blocker], one: &[DVec3], two: &[DVec3], touches: f64) -> bool {
     if one.len() * two.len() > MOST_CORNERS {
         return false;
     }
     let mut tried: Vec<&Blocker> = Vec::new();
-    for blocker in blockers {
+    for &blocker in blockers {
         let height = |corner: DVec3| blocker.normal.dot(corner - blocker.corners[0]);
         let in_plane = |other: &Blocker| other.corners.iter().all(|&c| height(c).abs() <= touches);
         if tried.iter().any(|other| in_plane(other)) {
@@ -30,7 +31,7 @@ pub(crate) fn covers(blockers: &[Blocker], one: &[DVec3], two: &[DVec3], touches
         tried.push(blocker);
         let Some(section) = section(one, two, height, blocker.normal) else { continue };
         let (mut open, mut next) = (vec![section], Vec::new());
-        for other in blockers.iter().filter(|other| in_plane(other)) {
+        for other in blockers.iter().copied().filter(|other| in_plane(other)) {
             let sides = sides(other);
             for fragment in open.drain(..) {
                 subtract(fragment, &sides, touches, &mut next);
@@ -86,6 +87,21 @@ fn hull(mut points: Vec<DVec3>, normal: DVec3) -> Corners {
     let lower = half(&mut points.iter().copied());
     let upper = half(&mut points.iter().rev().copied());
     lower.into_iter().chain(upper).collect()
+}
+
+/// A place on a plane and the plane's outward normal.
+type Plane = (DVec3, DVec3);
+
+/// Adds to `out` what of a convex polygon lies outside of all the planes' common inside.
+fn subtract(fragment: Corners, planes: &[Plane], touches: f64, out: &mut Vec<Corners>) {
+    let mut rest = fragment;
+    for &(on, normal) in planes {
+        out.extend(cut(&rest, normal, on, touches));
+        match cut(&rest, -normal, on, touches) {
+            Some(inside) => rest = inside,
+            None => return,
+        }
+    }
 }
 
 /// The outward planes through a blocker's edges, upright on it.

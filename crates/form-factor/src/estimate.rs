@@ -9,9 +9,11 @@ pub struct Estimate {
     pub error: f64,
     /// Integrand values taken: kernels, edge integrals or points.
     pub effort: u32,
+    /// Whether something may stand in between, so that visibility had to be computed.
+    pub visibility: bool,
 }
 
 impl Estimate {
     /// No light at all, known without computing.
-    pub const NOTHING: Self = Self { value: 0.0, error: 0.0, effort: 0 };
+    pub const NOTHING: Self = Self { value: 0.0, error: 0.0, effort: 0, visibility: false };
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::clip::{area_vector, cut};
 use crate::pair::Part;
-use crate::shadow::{Blocker, Plane, Sight};
+use crate::shadow::{Blocker, Sight};
 
 /// Blockers whose lines are tried.
 const MOST_BLOCKERS: usize = 8;
@@ -18,6 +18,9 @@ pub(crate) struct Probe {
     pub(crate) weight: f64,
     pub(crate) seen: Sight,
 }
+
+/// A place on a plane and the plane's normal.
+type Plane = (DVec3, DVec3);
 
 /// A line across a triangle.
 #[derive(Clone, Copy)]

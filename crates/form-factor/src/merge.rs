@@ -1,32 +1,81 @@
-//! Triangles of one wall put together again: fewer blockers, and no edges where light meets none.
+//! Triangles of one wall put together again: fewer occluders, and no edges where there are none.
 
 use glam::DVec3;
 
 use crate::corners::Corners;
 
-/// Polygons beyond which no pairs are tried.
-const MOST: usize = 64;
+/// Rounds of putting pairs together: walls of up to 2¹⁶ triangles.
+const ROUNDS: usize = 16;
 
 /// Puts together convex polygons of one plane that share an edge and make a convex polygon.
+/// `touches` is the length that counts as none.
 pub(crate) fn merge(polygons: &mut Vec<Corners>, touches: f64) {
-    if polygons.len() > MOST {
-        return;
-    }
-    let mut at = 0;
-    while at < polygons.len() {
-        let mut partner = at + 1;
-        while partner < polygons.len() {
-            if let Some(union) = union(&polygons[at], &polygons[partner], touches) {
-                polygons[at] = union;
-                polygons.remove(partner);
-                // The larger polygon may now fit one that came before.
-                partner = at + 1;
-            } else {
-                partner += 1;
+    for _ in 0..ROUNDS {
+        let edges = shared_edges(polygons);
+        let mut merged = vec![false; polygons.len()];
+        let mut gone = vec![false; polygons.len()];
+        for (one, two) in edges {
+            if merged[one] || merged[two] {
+                continue;
+            }
+            if let Some(union) = union(&polygons[one], &polygons[two], touches) {
+                polygons[one] = union;
+                (merged[one], merged[two], gone[two]) = (true, true, true);
             }
         }
-        at += 1;
+        if !gone.contains(&true) {
+            break;
+        }
+        let mut gone = gone.into_iter();
+        polygons.retain(|_| !gone.next().unwrap_or(false));
     }
+    polygons.iter_mut().for_each(|polygon| straighten(polygon, touches));
+}
+
+/// The pairs of polygons that have an edge in common, in the order of the polygons.
+fn shared_edges(polygons: &[Corners]) -> Vec<(usize, usize)> {
+    let key = |corner: DVec3| (corner + DVec3::ZERO).to_array().map(f64::to_bits);
+    let mut edges: Vec<_> = polygons
+        .iter()
+        .enumerate()
+        .flat_map(|(at, corners)| {
+            (0..corners.len()).map(move |i| {
+                let (p, q) = (key(corners[i]), key(corners[(i + 1) % corners.len()]));
+                (p.min(q), p.max(q), at)
+            })
+        })
+        .collect();
+    edges.sort_unstable();
+    let same = edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
+    let mut pairs: Vec<_> = same
+        .flat_map(|some| {
+            let others = move |i: usize| some[i + 1..].iter().map(move |two| (some[i].2, two.2));
+            (0..some.len()).flat_map(others)
+        })
+        .filter(|(one, two)| one != two)
+        .collect();
+    pairs.sort_unstable();
+    pairs
+}
+
+/// Leaves out corners at which the rim does not turn.
+fn straighten(polygon: &mut Corners, touches: f64) {
+    if polygon.len() == 3 {
+        return;
+    }
+    let mut kept: Vec<DVec3> = polygon.to_vec();
+    let mut at = 0;
+    while at < kept.len() && kept.len() > 3 {
+        let n = kept.len();
+        let (before, after) = (kept[(at + n - 1) % n], kept[(at + 1) % n]);
+        let along = (after - before).normalize_or_zero();
+        if along.cross(kept[at] - before).length() <= touches {
+            kept.remove(at);
+        } else {
+            at += 1;
+        }
+    }
+    *polygon = kept.into_iter().collect();
 }
 
 fn union(one: &[DVec3], two: &[DVec3], touches: f64) -> Option<Corners> {

@@ -1,8 +1,12 @@
-//! What may stand in between: triangles in a tree of boxes.
+//! What may stand in between: triangles, put together to walls, in a tree of boxes.
 
 use glam::DVec3;
 
-/// Triangles in a leaf of the tree.
+use crate::corners::Corners;
+use crate::merge::merge;
+use crate::pair::TOUCHES;
+
+/// Polygons in a leaf of the tree.
 const LEAF: usize = 4;
 
 /// Triangles that block light from both sides.
@@ -23,12 +27,13 @@ const LEAF: usize = 4;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Occluders {
-    /// In the order of the leaves.
-    triangles: Vec<[DVec3; 3]>,
+    triangles: usize,
+    /// Convex polygons in the order of the leaves: the triangles, or several of one plane.
+    walls: Vec<Corners>,
     nodes: Vec<Node>,
 }
 
-/// A box and what is in it: triangles `first..first + count`, or, where `count` is 0, the nodes
+/// A box and what is in it: walls `first..first + count`, or, where `count` is 0, the nodes
 /// after this one and `first`.
 #[derive(Clone, Copy, Debug)]
 struct Node {
@@ -58,33 +63,33 @@ impl Occluders {
     #[must_use]
     pub fn build(triangles: &[[DVec3; 3]]) -> Self {
         let finite = |t: &&[DVec3; 3]| t.iter().all(|corner| corner.is_finite());
-        let mut triangles: Vec<_> = triangles.iter().filter(finite).copied().collect();
+        let mut walls: Vec<Corners> =
+            triangles.iter().filter(finite).map(|t| t.iter().copied().collect()).collect();
+        let triangles = walls.len();
         let mut nodes = Vec::new();
-        if !triangles.is_empty() {
-            split(&mut triangles, 0, &mut nodes);
+        if triangles > 0 {
+            let bounds = Bounds::of(walls.iter().flat_map(|wall| wall.iter().copied()));
+            merge(&mut walls, TOUCHES * (bounds.high - bounds.low).max_element());
+            split(&mut walls, 0, &mut nodes);
         }
-        Self { triangles, nodes }
+        Self { triangles, walls, nodes }
     }
 
     /// Number of triangles.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.triangles.len()
+        self.triangles
     }
 
     /// Whether there is nothing that blocks.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
+        self.triangles == 0
     }
 
-    /// Calls `found` with each triangle whose box and whose parents' boxes `meets` accepts, always
+    /// Calls `found` with each wall whose box and whose parents' boxes `meets` accepts, always
     /// in the same order.
-    pub(crate) fn visit(
-        &self,
-        meets: impl Fn(&Bounds) -> bool,
-        mut found: impl FnMut(&[DVec3; 3]),
-    ) {
+    pub(crate) fn visit(&self, meets: impl Fn(&Bounds) -> bool, mut found: impl FnMut(&[DVec3])) {
         let mut open = vec![0];
         while let Some(at) = open.pop() {
             let Some(node) = self.nodes.get(at) else { continue };
@@ -93,7 +98,8 @@ impl Occluders {
             }
             if node.count > 0 {
                 let first = node.first as usize;
-                self.triangles[first..first + node.count as usize].iter().for_each(&mut found);
+                let walls = &self.walls[first..first + node.count as usize];
+                walls.iter().for_each(|wall| found(wall));
             } else {
                 open.push(node.first as usize);
                 open.push(at + 1);
@@ -102,22 +108,22 @@ impl Occluders {
     }
 }
 
-/// Adds the node over `triangles`, the first of which has the index `first`, and those below it:
+/// Adds the node over `walls`, the first of which has the index `first`, and those below it:
 /// halves by the middle of the centres along the longest side.
-fn split(triangles: &mut [[DVec3; 3]], first: usize, nodes: &mut Vec<Node>) {
-    let bounds = Bounds::of(triangles.iter().flatten().copied());
+fn split(walls: &mut [Corners], first: usize, nodes: &mut Vec<Node>) {
+    let bounds = Bounds::of(walls.iter().flat_map(|wall| wall.iter().copied()));
     let at = nodes.len();
-    nodes.push(Node { bounds, first: first as u32, count: triangles.len() as u32 });
-    if triangles.len() <= LEAF {
+    nodes.push(Node { bounds, first: first as u32, count: walls.len() as u32 });
+    if walls.len() <= LEAF {
         return;
     }
-    let centre = |t: &[DVec3; 3]| t[0] + t[1] + t[2];
-    let centres = Bounds::of(triangles.iter().map(centre));
+    let centre = |wall: &Corners| wall.iter().sum::<DVec3>() / wall.len() as f64;
+    let centres = Bounds::of(walls.iter().map(centre));
     let size = (centres.high - centres.low).to_array();
     let axis = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
-    let half = triangles.len() / 2;
-    triangles.select_nth_unstable_by(half, |a, b| centre(a)[axis].total_cmp(&centre(b)[axis]));
-    let (left, right) = triangles.split_at_mut(half);
+    let half = walls.len() / 2;
+    walls.select_nth_unstable_by(half, |a, b| centre(a)[axis].total_cmp(&centre(b)[axis]));
+    let (left, right) = walls.split_at_mut(half);
     split(left, first, nodes);
     (nodes[at].first, nodes[at].count) = (nodes.len() as u32, 0);
     split(right, first + half, nodes);

@@ -130,7 +130,12 @@ impl Sight {
 
     fn estimate(&self, a: &Polygon, b: &Polygon, rule: usize) -> Estimate {
         if rule == 0 {
-            return Estimate { value: self.value.min(1.0), error: self.bound(0), effort: 1 };
+            return Estimate {
+                value: self.value.min(1.0),
+                error: self.bound(0),
+                effort: 1,
+                visibility: false,
+            };
         }
         let value = mean_kernel(a, b, TRIANGLE[rule], 1.0 / binade(self.distance));
         let nodes = TRIANGLE[rule].len() * TRIANGLE[rule].len();
@@ -138,7 +143,12 @@ impl Sight {
         // Heights are differences of coordinates as large as the distance.
         let grazing = self.distance / self.above[0] + self.distance / self.above[1];
         let rounding = ROUNDINGS * (2.0 + grazing) * value;
-        Estimate { value: value.min(1.0), error: self.bound(rule) + rounding, effort }
+        Estimate {
+            value: value.min(1.0),
+            error: self.bound(rule) + rounding,
+            effort,
+            visibility: false,
+        }
     }
 }
 

@@ -3,18 +3,20 @@
 //! What is visible from a point changes smoothly but for kinks along known lines, so pieces are
 //! cut there first, and by halves then, the worst first.
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use glam::DVec3;
 
-use crate::between::Exchange;
+use crate::between::{Exchange, unblocked};
 use crate::clip::{area_vector, cut, halves};
 use crate::corners::Corners;
+use crate::cover::covers;
 use crate::gauss::{Node, TRIANGLE};
 use crate::kink::{Kink, Probe, kink};
-use crate::pair::Pair;
-use crate::shadow::{Blocker, Sight, sight};
+use crate::missed::missed;
+use crate::pair::{Pair, Part};
+use crate::piece::{Piece, Ranked, Sums, Total};
+use crate::shadow::{Blocker, Shadows, Sight, Target};
 use crate::shaft::Shaft;
 
 /// Where a piece of the smaller polygon is looked at: a rule of 6 nodes, exact to degree 4, and,
@@ -64,57 +66,73 @@ const STEEP: f64 = 0.25;
 /// The share of the tolerance below which an error is not trusted: few points were taken.
 const CHECKED: f64 = 0.5;
 
+/// The share of the tolerance that the light of a piece without occluders may take.
+const CLEAR: f64 = 0.1;
+
 /// Roundings of a sum of fragments.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Growth of the list of pieces after which sums are taken anew, so that what large pieces left in
+/// them by rounding is gone.
+const AFRESH: f64 = 1.5;
 
 /// The integral over the smaller polygon, as it is being settled.
 pub(crate) struct Search<'a> {
     pair: &'a Pair,
     blockers: &'a [Blocker],
+    shadows: Shadows<'a>,
     touches: f64,
+    tolerance: f64,
     points: u32,
     most_points: u32,
+    touched: Vec<bool>,
 }
 
 impl<'a> Search<'a> {
     /// `touches` is the length that counts as none.
     pub(crate) fn new(
         pair: &'a Pair,
+        target: &'a Target,
         blockers: &'a [Blocker],
         touches: f64,
         most_points: u32,
     ) -> Self {
-        Self { pair, blockers, touches, points: 0, most_points }
+        let shadows = Shadows::new(target, touches);
+        let touched = Vec::new();
+        Self { pair, blockers, shadows, touches, tolerance: 0.0, points: 0, most_points, touched }
     }
 
     /// The visible part of the exchange area `clear`, to a relative tolerance or an absolute floor.
     pub(crate) fn visible(&mut self, clear: Exchange, tolerance: f64, floor: f64) -> Exchange {
+        self.tolerance = tolerance;
         let mut pieces = self.first_pieces();
-        let add = |a: f64, b: f64| a + b;
-        let subtract = |a: f64, b: f64| a - b;
-        let (mut sums, mut errors) = pieces.iter().fold(Default::default(), |(s, e), piece| {
-            (piece.sums.map(s, add), piece.errors.map(e, add))
-        });
+        let mut total = Total::of(&pieces);
+        let mut fresh = pieces.len();
         // The difference to the light without occluders is exact where nothing is hidden; what is
         // visible is exact where all is.
-        let by_difference = |errors: Sums| errors.hidden + clear.error < errors.visible;
-        let rank = if by_difference(errors) {
-            |piece: &Piece| piece.errors.hidden
-        } else {
-            |piece: &Piece| piece.errors.visible
+        let hidden = total.error(|e| e.hidden) + clear.error < total.error(|e| e.visible);
+        let rank = |piece: &Piece| match (piece.proved, hidden) {
+            (true, _) => 0.0,
+            (_, true) => piece.errors.hidden,
+            (_, false) => piece.errors.visible,
         };
         let ranked = |(at, piece): (usize, &Piece)| Ranked { error: rank(piece), at };
         let mut queue: BinaryHeap<_> = pieces.iter().enumerate().map(ranked).collect();
         loop {
-            let (value, error) = if by_difference(errors) {
-                (clear.value - sums.hidden, errors.hidden + clear.error)
-            } else {
-                (sums.visible, errors.visible)
-            };
+            let visible = (total.sums.visible, total.error(|e| e.visible));
+            let rest = (clear.value - total.sums.hidden, total.error(|e| e.hidden) + clear.error);
+            let (value, error) = if rest.1 < visible.1 { rest } else { visible };
             let wanted = (tolerance * value).max(floor);
-            let worst = queue.pop().filter(|worst| worst.error > 0.0);
-            let Some(worst) = worst.filter(|_| error > wanted && self.points < self.most_points)
-            else {
+            let open = error > wanted && self.points < self.most_points;
+            let worst =
+                queue.peek().filter(|worst| open && worst.error > 0.0).map(|worst| worst.at);
+            let enough = pieces.len() as f64 > AFRESH * fresh as f64;
+            if (worst.is_none() && pieces.len() > fresh) || enough {
+                total = Total::of(&pieces);
+                fresh = pieces.len();
+                continue;
+            }
+            let Some(worst) = worst else {
                 let value = value.clamp(0.0, clear.value);
                 let unchecked = CHECKED * tolerance * value.min(clear.value - value);
                 return Exchange {
@@ -123,25 +141,35 @@ impl<'a> Search<'a> {
                     effort: clear.effort + self.points,
                 };
             };
-            let parent = &pieces[worst.at];
-            (sums, errors) = (sums.map(parent.sums, subtract), errors.map(parent.errors, subtract));
-            for half in self.split(parent) {
-                (sums, errors) = (sums.map(half.sums, add), errors.map(half.errors, add));
-                queue.push(Ranked { error: rank(&half), at: pieces.len() });
-                pieces.push(half);
+            queue.pop();
+            let parts = self.split(&pieces[worst]);
+            total.add(&pieces[worst], -1.0);
+            pieces[worst].is_split = true;
+            for part in parts {
+                total.add(&part, 1.0);
+                queue.push(Ranked { error: rank(&part), at: pieces.len() });
+                pieces.push(part);
             }
         }
     }
 
-    /// Quarters of each triangle of the smaller polygon's fan.
+    /// Halves of each triangle of the smaller polygon's fan.
     fn first_pieces(&mut self) -> Vec<Piece> {
         let all: Vec<u32> = (0..self.blockers.len() as u32).collect();
         let small = &self.pair.small.corners;
         let mut pieces = Vec::new();
         for i in 2..small.len() {
             let whole = self.piece([small[0], small[i - 1], small[i]], &all);
+            if whole.proved {
+                pieces.push(whole);
+                continue;
+            }
             for half in self.split(&whole) {
-                pieces.extend(self.split(&half));
+                if half.proved {
+                    pieces.push(half);
+                } else {
+                    pieces.extend(self.split(&half));
+                }
             }
         }
         pieces
@@ -158,20 +186,18 @@ impl<'a> Search<'a> {
             .collect();
         let together =
             parts.iter().fold(Sums::default(), |sum, part| sum.map(part.sums, |a, b| a + b));
-        let difference = together.map(whole.sums, |now, before| (now - before).abs());
+        let difference = together.map(whole.sums, |now, before| now - before);
         let settled = whole.settled && parts.iter().all(|part| part.settled);
         let (safety, slow) = if settled { (CONVERGED, FAST) } else { (UNSETTLED, SLOW) };
-        let share = 1.0 / parts.len() as f64;
-        let errors =
-            difference.map(whole.errors, |now, before| (safety * now).max(before / slow) * share);
-        for part in &mut parts {
-            // Parts along a kink are not much smaller than the whole and confirm nothing: what is
-            // known is how much the values in each differ.
-            if whole.kink.is_none() {
+        let share = 1.0 / parts.iter().filter(|part| !part.proved).count().max(1) as f64;
+        let errors = difference
+            .map(whole.errors, |now, before| (safety * now.abs()).max(before / slow) * share);
+        // Parts along a kink are not much smaller than the whole and confirm nothing: what is
+        // known is how much the values in each differ.
+        if whole.kink.is_none() {
+            for part in parts.iter_mut().filter(|part| !part.proved) {
                 part.errors = errors.map(part.doubts, |error, doubt| error + doubt);
-            }
-            if part.blockers.is_empty() {
-                part.errors.hidden = 0.0;
+                part.drift = difference.map(Sums::default(), |now, _| safety * now * share);
             }
         }
         parts
@@ -201,17 +227,27 @@ impl<'a> Search<'a> {
         let between: Vec<&Blocker> =
             blockers.iter().map(|&at| &self.blockers[at as usize]).collect();
         let area = area_vector(&corners).dot(small.normal);
+        if blockers.is_empty() {
+            return self.proved(corners, false);
+        }
         let (origin, u, v) = (corners[0], corners[1] - corners[0], corners[2] - corners[0]);
         let mut sums = Sums::default();
         let mut probes = [Probe::default(); PROBES];
+        self.touched.clear();
+        self.touched.resize(between.len(), false);
         for (probe, &(weight, place)) in probes.iter_mut().zip(NODES.iter()) {
             let point = origin + u * place[1] + v * place[2];
-            let seen = sight(point, small.normal, large, &between, self.touches);
+            let some = between.iter().copied();
+            let seen = self.shadows.sight(point, small.normal, some, &mut self.touched);
             sums.visible += weight * area * seen.visible;
             sums.hidden += weight * area * (seen.all - seen.visible);
             *probe = Probe { place, weight, seen };
         }
         self.points += PROBES as u32;
+        let dark = probes.iter().all(|probe| probe.seen.visible == 0.0);
+        if dark && covers(&between, &corners, &large.corners, self.touches) {
+            return self.proved(corners, true);
+        }
         let range = |value: fn(&Sight) -> f64| {
             let values = probes.iter().map(|probe| value(&probe.seen));
             let (low, high) =
@@ -230,63 +266,48 @@ impl<'a> Search<'a> {
         };
         let nulls = Sums { visible: null(|s| s.visible), hidden: null(|s| s.all - s.visible) };
         let share = if settled { SETTLED_NULL } else { NULL_SHARE };
-        let doubts = ranges.map(nulls, |range, null| (overlooked * range + share * null) * area);
+        let missed =
+            missed(&corners, small.normal, &NODES[..6], large, &between, &shaft, sums.hidden);
+        let doubts =
+            ranges.map(nulls, |range, null| (overlooked * range + share * null) * area + missed);
         let guess = |doubt, range| GUESS * doubt + RANGE * range * area;
-        Piece { corners, kink, settled, blockers, sums, doubts, errors: doubts.map(ranges, guess) }
+        Piece {
+            corners,
+            kink,
+            settled,
+            proved: false,
+            is_split: false,
+            blockers,
+            sums,
+            doubts,
+            errors: doubts.map(ranges, guess),
+            drift: Sums::default(),
+        }
+    }
+
+    /// A piece of which all is known to be hidden, or nothing.
+    fn proved(&mut self, corners: [DVec3; 3], hidden: bool) -> Piece {
+        let Pair { small, large, .. } = self.pair;
+        let part = Part::of(corners.into_iter().collect(), small.normal);
+        let clear = unblocked(&part, large, self.tolerance * CLEAR);
+        self.points += 1;
+        let (all, none) = (clear.value, 0.0);
+        let (sums, errors) = if hidden {
+            (Sums { visible: none, hidden: all }, Sums { visible: 0.0, hidden: clear.error })
+        } else {
+            (Sums { visible: all, hidden: none }, Sums { visible: clear.error, hidden: 0.0 })
+        };
+        Piece {
+            corners,
+            kink: None,
+            settled: true,
+            proved: true,
+            is_split: false,
+            blockers: Vec::new(),
+            sums,
+            doubts: Sums::default(),
+            errors,
+            drift: Sums::default(),
+        }
     }
 }
-
-/// A piece of the smaller polygon, and integrals over it.
-struct Piece {
-    corners: [DVec3; 3],
-    /// A line across which the edges of shadows cut the larger polygon in another way.
-    kink: Option<Kink>,
-    /// Whether there is one pattern of shadows, and no steep change from light to shadow.
-    settled: bool,
-    /// Indices of the blockers that matter to it.
-    blockers: Vec<u32>,
-    sums: Sums,
-    /// How far the sums may be off by what lies between the probes, whatever the parts say.
-    doubts: Sums,
-    /// How far the sums may be off; at first a guess from how much the probes differ.
-    errors: Sums,
-}
-
-/// Exchange areas: of what is visible, and of what is hidden.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    visible: f64,
-    hidden: f64,
-}
-
-impl Sums {
-    fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self { visible: f(self.visible, other.visible), hidden: f(self.hidden, other.hidden) }
-    }
-}
-
-/// A piece that may be halved; the worst one comes first, and of equals the oldest.
-struct Ranked {
-    error: f64,
-    at: usize,
-}
-
-impl Ord for Ranked {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.error.total_cmp(&other.error).then(other.at.cmp(&self.at))
-    }
-}
-
-impl PartialOrd for Ranked {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Ranked {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Ranked {}

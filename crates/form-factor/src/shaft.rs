@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::clip::cut;
+use crate::corners::Corners;
 use crate::occluders::Bounds;
 
 /// Corners of the one times corners of the other beyond which only the box serves: planes take
@@ -50,6 +52,15 @@ impl Shaft {
         self.planes.iter().all(|&(normal, height)| {
             corners.iter().any(|&corner| normal.dot(corner) < height - self.touches)
         })
+    }
+
+    /// The part of a convex polygon in the inside.
+    pub(crate) fn part(&self, corners: &[DVec3]) -> Option<Corners> {
+        let mut part: Corners = corners.iter().copied().collect();
+        for &(normal, height) in &self.planes {
+            part = cut(&part, -normal, normal * height, self.touches)?;
+        }
+        Some(part)
     }
 
     fn misses_box(&self, bounds: &Bounds) -> bool {

@@ -1,6 +1,8 @@
 //! Occluders: exact cases, proofs that nothing or all is seen, and an independent integral.
 
-use form_factor::{FLOOR, Occluders, Polygon, REFERENCE, between, between_occluded};
+use form_factor::{
+    Ask, FLOOR, Occluders, Polygon, REFERENCE, between, between_occluded, between_occluded_within,
+};
 use glam::DVec3;
 
 use crate::{Random, ceiling, floor, polygon};
@@ -164,4 +166,47 @@ fn what_is_all_but_hidden_is_left_at_the_floor() {
     let f = between_occluded(&lower, &upper, &occluders(&[a, b, c, d]), 1e-2);
     // The hole as a lamp of its own: twice as near and four times as bright to each plate.
     assert!(f.value <= 1e-11 && f.error <= 2.0 * FLOOR, "{f:?}");
+}
+
+#[test]
+fn no_more_is_computed_than_is_asked_for() {
+    let (lower, upper) = (floor([0.0, 2.0], [0.0, 1.0], 0.0), ceiling([0.0, 1.0], [0.0, 1.0], 1.0));
+    let small = floor([0.25, 0.75], [0.25, 0.75], 0.75);
+    let under = ceiling([0.25, 0.75], [0.25, 0.75], 0.75);
+    let screens = occluders(&[&small]);
+    // Part of the shadow falls beside the upper plate, so that there is no closed form.
+    let exact = between_occluded(&upper, &lower, &screens, 1e-5);
+    let mut last = u32::MAX;
+    for absolute in [1e-5, 1e-3, 1e-1] {
+        let ask = Ask { relative: 1e-5, absolute };
+        let f = between_occluded_within(&upper, &lower, &screens, ask);
+        let back = between_occluded_within(&lower, &upper, &screens, ask);
+        assert!(f.error <= absolute && (f.value - exact.value).abs() <= f.error, "{f:?} {exact:?}");
+        assert_eq!((back.value * 2.0, back.error * 2.0), (f.value, f.error), "one exchange");
+        assert!(f.effort <= last && f.visibility, "{f:?}");
+        last = f.effort;
+    }
+    assert!(last * 2 < exact.effort, "{last} {}", exact.effort);
+    assert!(!between_occluded(&lower, &under, &screens, 1e-3).visibility, "nothing in between");
+}
+
+#[test]
+fn a_speck_beside_a_common_edge_is_found() {
+    // It hides no more than its area times 1, and no less than that times what passes through its
+    // middle: the two plates seen from there.
+    let [o, x, y, z] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let lower = polygon([[0.0; 3], x.to_array(), (x + y).to_array(), y.to_array()]);
+    let wall = polygon([o, y, y + z, z].map(|c| c.to_array()));
+    let clear = between(&lower, &wall, REFERENCE).value;
+    let at = DVec3::new(0.02, 0.37, 0.02);
+    let across = DVec3::new(1.0, 0.0, 1.0) * 0.01;
+    let speck = Occluders::build(&[[at, at + across, at + y * 0.02]]);
+    let area = across.length() * 0.02 / 2.0;
+    let exact = between_occluded(&lower, &wall, &speck, 1e-6);
+    let hidden = clear - exact.value;
+    assert!(hidden > 0.5 * area && hidden < area, "{hidden} {area}");
+    for tolerance in SETTINGS {
+        let f = between_occluded(&lower, &wall, &speck, tolerance);
+        assert!((f.value - exact.value).abs() <= f.error + exact.error, "{f:?} {exact:?}");
+    }
 }

@@ -94,7 +94,7 @@ fn places_are_read_carried_and_compared() {
     csv::write_places(&mut out, &places, &[Rgb::new(1.0, 2.0, 0.1), Rgb::ZERO]).unwrap();
     let written = String::from_utf8(out.clone()).unwrap();
     assert_eq!(written, "triangle,u,v,area,B_r,B_g,B_b\n3,0.25,0.5,2,1,2,0.1\n0,0,1,1,0,0,0\n");
-    let rows = csv::read(out.as_slice()).unwrap();
+    let rows = read(out.as_slice()).unwrap();
     assert_eq!(rows[1].uv, Some([0.0, 1.0]));
     let mut elsewhere = rows.clone();
     elsewhere[0].uv = Some([0.25, 0.4]);

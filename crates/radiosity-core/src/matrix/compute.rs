@@ -134,3 +134,44 @@ fn assemble(surfaces: &Surfaces, shots: &[Shot]) -> Matrix {
         "polygons have area, rows of a surface list have polygons, and form factors are finite",
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use form_factor::Polygon;
+    use glam::DVec3;
+
+    use super::*;
+    use crate::Sequential;
+
+    /// The faces of a box in triangles that face inwards.
+    fn cuboid(low: f64, high: f64) -> Vec<[DVec3; 3]> {
+        let corner = |i: usize| {
+            DVec3::from_array([i & 1, i >> 1 & 1, i >> 2].map(|b| if b == 0 { low } else { high }))
+        };
+        let faces =
+            [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+        let halves = |[a, b, c, d]: [usize; 4]| [[a, b, c], [a, c, d]];
+        faces.into_iter().flat_map(halves).map(|t| t.map(corner)).collect()
+    }
+
+    #[test]
+    fn rows_are_right_to_twice_the_tolerance_past_what_stands_in_between() {
+        // A block that floats in a room: closed, so that each row sums to 1.
+        let block = cuboid(0.3, 0.6).into_iter().map(|[a, b, c]| [a, c, b]);
+        let triangles: Vec<_> = cuboid(0.0, 1.0).into_iter().chain(block).collect();
+        let surfaces = Surfaces::each(triangles.iter().map(|&t| Polygon::triangle(t).unwrap()));
+        let occluders = Occluders::build(&triangles);
+        for tolerance in [1e-2, 1e-3] {
+            let config = ComputeConfig { tolerance, occluders: Some(&occluders) };
+            let computed = compute(&surfaces, &config, &Sequential);
+            let defects = computed.matrix.defects().unwrap();
+            assert!(defects.row_error <= 2.0 * tolerance, "{tolerance:e}: {defects:?}");
+            assert!(defects.closure() <= defects.row_error, "{tolerance:e}: {defects:?}");
+            // Only the room's walls can see one another past the block: 60 pairs not of one face.
+            let seen = computed.visibility;
+            assert!((30..=60).contains(&seen), "{seen} of {} pairs", computed.pairs);
+        }
+        let config = ComputeConfig { tolerance: 1e-3, occluders: None };
+        assert_eq!(compute(&surfaces, &config, &Sequential).visibility, 0);
+    }
+}

@@ -1,5 +1,5 @@
 //! The scene's triangles as a forest of bisected triangles: roots are input triangles, cut where
-//! others touch or cross them; patches shoot, leaves (elements) receive.
+//! others touch or cross them, less what earlier ones cover; patches shoot, leaves (elements) receive.
 
 mod bisect;
 mod cut;
@@ -84,6 +84,7 @@ pub struct Mesh {
     pub(crate) patches: Vec<Patch>,
     pub(crate) points: Vec<ReceiverPoint>,
     pub(crate) extent: f64,
+    pub(crate) covered: usize,
 }
 
 impl Mesh {
@@ -93,17 +94,25 @@ impl Mesh {
     /// touch or cross them before a lit side, so that no element lies on both sides of a wall,
     /// or partly under a box. Triangles that nothing touches stay as they are.
     ///
+    /// Where triangles overlap in one plane (to a millionth of [`Mesh::extent`]) and face the same
+    /// way, the first in the scene's order takes part, and what it covers of the others does not:
+    /// a poster in a floor's plane shows if it comes before the floor. Fronts and backs each
+    /// follow this rule. What is covered has no elements; a scene of very many overlaps is
+    /// left as it is.
+    ///
     /// The longest edge of the whole mesh is halved, in all triangles that share it, until
     /// there are enough elements: so no split leaves a T-vertex, and the smallest angle
     /// stays at least half of what it was (Rosenberg & Stenger 1975). Triangles without
-    /// area, and exact duplicates of earlier ones, have no elements. Time N·log N.
+    /// area, exact duplicates of earlier ones, and those wholly covered have no elements. Time
+    /// N·log N.
     #[must_use]
     pub fn from_scene(scene: &Scene, config: &MeshConfig) -> Self {
         let extent = weld::extent(scene);
-        let Roots { vertices, roots, corners, barriers } = weld::roots(scene, config.cut, extent);
+        let Roots { vertices, roots, corners, barriers, covered } =
+            weld::roots(scene, config.cut, extent);
         let (vertices, nodes, barriers) =
             bisect::forest(vertices, corners, barriers, config.elements);
-        let mut mesh = Self { vertices, roots, nodes, extent, ..Self::default() };
+        let mut mesh = Self { vertices, roots, nodes, extent, covered, ..Self::default() };
         patch::number_elements(&mut mesh);
         patch::choose(&mut mesh, config.patch_elements.max(1));
         points::place(&mut mesh, &barriers);
@@ -153,6 +162,13 @@ impl Mesh {
     #[must_use]
     pub fn resolution(&self) -> f64 {
         crate::shooting::SEGMENT_LIFT * self.extent
+    }
+
+    /// How many input triangles are covered by earlier ones, wholly or in part, on a lit side:
+    /// those that overlap in one plane, and exact duplicates.
+    #[must_use]
+    pub fn covered(&self) -> usize {
+        self.covered
     }
 
     /// The root that an element is part of.

@@ -6,7 +6,7 @@ use glam::DVec3;
 use scene::{Face, Scene, Sides, TriangleId, VertexId};
 
 use super::Root;
-use super::cut::{self, Cut, Edge, Surface};
+use super::cut::{self, Cut, Edge, Piece, Surface};
 
 /// A triangle whose height over its longest edge is below this share of that edge has no
 /// usable normal: f64 corners are rounded to about 1e-16 of their size.
@@ -24,6 +24,8 @@ pub(super) struct Roots {
     pub(super) corners: Vec<[VertexId; 3]>,
     /// Edges along contacts.
     pub(super) barriers: HashSet<Edge>,
+    /// How many triangles are covered by earlier ones, wholly or in part, copies among them.
+    pub(super) covered: usize,
 }
 
 impl Roots {
@@ -50,18 +52,21 @@ impl Roots {
         for corners in &mut self.corners {
             *corners = corners.map(new);
         }
-        // Numbers keep their order, and with it the order in an edge.
-        self.barriers = self.barriers.iter().map(|&(a, b)| (new(a), new(b))).collect();
+        // Numbers keep their order, and with it the order in an edge. What is covered may have had
+        // barriers of its own.
+        let kept = self.barriers.iter().filter(|(a, b)| used[a.index()] && used[b.index()]);
+        self.barriers = kept.map(|&(a, b)| (new(a), new(b))).collect();
     }
 }
 
-/// Welds bitwise equal positions, cuts the triangles along contacts if `cuts` says so, and
-/// makes a root of each piece of each lit side of each triangle that has area.
+/// Welds bitwise equal positions, cuts the triangles along contacts and overlaps if `cuts` says
+/// so, and makes a root of each piece of each lit side of each triangle that has area.
 ///
-/// Of triangles over the same three vertices that face the same way, the first alone takes
-/// part: two would both receive the light of one, and give out twice of it.
+/// Of sides that face the same way, over the same three vertices or in one plane, the first alone
+/// takes part: two would both receive the light of one, and give out twice of it.
 pub(super) fn roots(scene: &Scene, cuts: bool, extent: f64) -> Roots {
-    let (mut vertices, triangles, surfaces) = surfaces(scene);
+    let Surfaces { mut vertices, triangles, surfaces, copies } = surfaces(scene);
+    let mut covered = copies;
     let before = vertices.len();
     let cut = if cuts { cut::cut(&mut vertices, &surfaces, extent) } else { Cut::default() };
     let mut roots = Vec::with_capacity(surfaces.len());
@@ -75,47 +80,62 @@ pub(super) fn roots(scene: &Scene, cuts: bool, extent: f64) -> Roots {
             reflectance: material.reflectance,
             emittance: material.emittance,
         };
-        let whole = [surface.corners];
+        let back = Root { face: Face::Back, normal: -front.normal, ..front };
+        let whole = [Piece { corners: surface.corners, lit: surface.lit }];
         let pieces = cut.pieces.get(&number).map_or(whole.as_slice(), Vec::as_slice);
-        roots.extend(pieces.iter().map(|_| front));
-        corners.extend(pieces);
-        if surface.two_sided {
-            let back = Root { face: Face::Back, normal: -front.normal, ..front };
-            roots.extend(pieces.iter().map(|_| back));
-            corners.extend(pieces.iter().map(|&[a, b, c]| [a, c, b]));
+        let asked = [true, material.sides == Sides::Both];
+        covered += usize::from(pieces.iter().any(|piece| piece.lit != asked));
+        for (side, root) in [front, back].into_iter().enumerate() {
+            for piece in pieces.iter().filter(|piece| piece.lit[side]) {
+                let [a, b, c] = piece.corners;
+                roots.push(root);
+                corners.push(if side == 0 { [a, b, c] } else { [a, c, b] });
+            }
         }
     }
-    let mut all = Roots { vertices, roots, corners, barriers: cut.barriers };
+    let mut all = Roots { vertices, roots, corners, barriers: cut.barriers, covered };
     all.leave_out_unused(before);
     all
 }
 
-/// The welded vertices, and the triangles that take part with their ids.
-fn surfaces(scene: &Scene) -> (Vec<DVec3>, Vec<TriangleId>, Vec<Surface>) {
-    let mut vertices = Vec::new();
+/// The triangles that take part.
+#[derive(Default)]
+struct Surfaces {
+    /// Welded positions.
+    vertices: Vec<DVec3>,
+    triangles: Vec<TriangleId>,
+    /// The same, without the sides that are there already.
+    surfaces: Vec<Surface>,
+    /// How many triangles with area take no part, since all their sides are there already.
+    copies: usize,
+}
+
+fn surfaces(scene: &Scene) -> Surfaces {
+    let mut all = Surfaces::default();
     let mut known: HashMap<[u64; 3], VertexId> = HashMap::new();
-    let mut weld = |p: DVec3| {
-        // Adding 0 turns −0 into 0.
-        let key = (p + DVec3::ZERO).to_array().map(f64::to_bits);
-        *known.entry(key).or_insert_with(|| {
-            vertices.push(p);
-            VertexId::from(vertices.len() - 1)
-        })
-    };
     let mut seen = HashSet::new();
-    let mut triangles = Vec::new();
-    let mut surfaces = Vec::new();
     for id in scene.ids() {
         let p = scene.corners(id);
         let Some(normal) = unit_normal(p) else { continue };
-        let corners = p.map(&mut weld);
-        if seen.insert(turned(corners)) {
-            triangles.push(id);
-            let two_sided = scene.material_of(id).sides == Sides::Both;
-            surfaces.push(Surface { corners, normal, two_sided });
+        let corners = p.map(|p| {
+            // Adding 0 turns −0 into 0.
+            let key = (p + DVec3::ZERO).to_array().map(f64::to_bits);
+            *known.entry(key).or_insert_with(|| {
+                all.vertices.push(p);
+                VertexId::from(all.vertices.len() - 1)
+            })
+        });
+        let [a, b, c] = corners;
+        let back = scene.material_of(id).sides == Sides::Both;
+        let lit = [seen.insert(turned(corners)), back && seen.insert(turned([a, c, b]))];
+        if lit == [false; 2] {
+            all.copies += 1;
+        } else {
+            all.triangles.push(id);
+            all.surfaces.push(Surface { corners, normal, lit });
         }
     }
-    (vertices, triangles, surfaces)
+    all
 }
 
 /// The corners, turned so that the smallest comes first; the winding stays.

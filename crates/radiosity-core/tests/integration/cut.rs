@@ -184,11 +184,11 @@ fn a_scene_without_contacts_keeps_its_mesh_to_the_bit() {
     floor(&mut meeting, 1.0, m);
     meeting.quad([[1., 0., 0.], [2., 0., 0.], [2., 1., 0.], [1., 1., 0.]], m);
     wall(&mut meeting, [[1., 0.], [1., 1.]], m);
-    // In one plane, one above the other, and behind a floor that is lit from above.
+    // Back to back, one above the other, and behind a floor that is lit from above.
     let mut near = Model::new();
     let m = near.surface(0.5, 0.0);
     floor(&mut near, 4.0, m);
-    near.quad([[1., 1., 0.], [2., 1., 0.], [2., 2., 0.], [1., 2., 0.]], m);
+    near.quad([[1., 1., 0.], [1., 2., 0.], [2., 2., 0.], [2., 1., 0.]], m);
     near.quad([[1., 1., 0.1], [2., 1., 0.1], [2., 2., 0.1], [1., 2., 0.1]], m);
     near.quad([[1., 1., -1.], [2., 1., -1.], [2., 1., 0.], [1., 1., 0.]], m);
     for scene in [cubes.scene(), meeting.scene(), near.scene()] {
@@ -299,6 +299,37 @@ fn what_touches_by_rounding_cuts_and_what_is_apart_does_not() {
 }
 
 #[test]
+fn a_foot_off_the_floor_by_rounding_leaves_the_floor_flat() {
+    // A floor whose pieces bend towards the foot would lie before itself: it would be too light
+    // by 2 % where the foot is above it, and by 7 % where it is below.
+    let light = |foot: f64| {
+        let mut model = Model::new();
+        let wall = model.surface(0.5, 0.0);
+        let lamp = model.surface(0.5, 1.0);
+        let screen = model.sided(0.5, 0.0, Sides::Both);
+        model.cube([wall, lamp, wall, wall, wall, wall]);
+        let (a, b) = ([0.3, 0.4], [0.7, 0.6]);
+        let at = |p: [f64; 2], z: f64| [p[0], p[1], z];
+        model.quad([at(a, foot), at(b, foot), at(b, 0.3), at(a, 0.3)], screen);
+        let scene = model.scene();
+        let mesh = cut(&scene, 800);
+        let floor = mesh.elements().iter().filter(|e| mesh.root_of(e).triangle.0 < 2);
+        for place in floor.flat_map(|e| corners(&mesh, e)) {
+            assert!(place.z.abs() < 1e-8, "{place}");
+        }
+        let solved = solve_mesh(&scene, &mesh, until(1e-4));
+        let of_triangles = solved.solution.triangle_exitance(&scene);
+        f64::midpoint(of_triangles[0][0], of_triangles[1][0])
+    };
+    let exact = light(0.0);
+    for foot in [1e-8, 1e-6, -1e-6] {
+        let off = light(foot) / exact - 1.0;
+        println!("foot at {foot:e}: off by {off:.1e}");
+        assert!(off.abs() < 3e-3, "{off}");
+    }
+}
+
+#[test]
 fn contacts_that_all_but_meet_leave_no_slivers() {
     // Ends within 1e-8 of a corner, of the diagonal, of each other and of another wall.
     let mut model = Model::new();
@@ -392,9 +423,13 @@ fn odd_scenes_are_cut_or_left_alone_without_a_panic() {
     }
     let scene = model.scene();
     let mesh = cut(&scene, 5000);
+    let mut less = 0;
     for (a, b) in areas(&mesh, &scene).into_iter().zip(areas(&uncut(&scene, 5000), &scene)) {
-        assert!((a - b).abs() < 1e-5, "{a} {b}");
+        assert!(a - b < 1e-5, "{a} {b}");
+        less += usize::from(b - a > 1e-5);
     }
+    // Some of the second kind are within what is near of one plane, and cover each other.
+    assert!((1..=mesh.covered()).contains(&less) && less < 40, "{less} {}", mesh.covered());
 }
 
 #[test]

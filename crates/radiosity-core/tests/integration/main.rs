@@ -9,6 +9,7 @@ mod limits;
 mod matrix;
 mod mesh;
 mod models;
+mod overlap;
 mod plates;
 mod refine;
 mod stiff;

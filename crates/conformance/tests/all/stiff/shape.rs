@@ -227,8 +227,8 @@ fn poster(height: f64, elements: usize) -> f64 {
     ledger.share(ledger.absorbed)
 }
 
-/// The rule (docs/design.md): surfaces that overlap in one plane and face the same way share the
-/// light of their plane, they do not each take all of it.
+/// The rule (docs/design.md): of surfaces that overlap in one plane and face the same way, the
+/// first in the file takes part, and what it covers of the others does not.
 #[test]
 fn coplanar_overlap() {
     for height in [0.0, 1e-6] {

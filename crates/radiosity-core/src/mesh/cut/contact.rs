@@ -53,10 +53,12 @@ pub(super) fn between(vertices: &[DVec3], surfaces: [&Surface; 2], near: f64) ->
     // Seen from the other end of the line, the earlier is the later.
     let turned = |(t, end): (f64, End)| (-t, end);
     let end = turned(later(turned(first[1]), turned(second[1]), near));
-    let parts = |over: [f64; 3], two_sided: bool| over.iter().any(|&h| h > 0.0) || two_sided;
+    let parts = |over: [f64; 3], lit: [bool; 2]| {
+        over.iter().any(|&h| h > 0.0 && lit[0] || h < 0.0 && lit[1])
+    };
     (end.0 - start.0 > near).then(|| Contact {
         ends: [start.1, end.1],
-        parts: [parts(over_a, surfaces[0].two_sided), parts(over_b, surfaces[1].two_sided)],
+        parts: [parts(over_a, surfaces[0].lit), parts(over_b, surfaces[1].lit)],
     })
 }
 

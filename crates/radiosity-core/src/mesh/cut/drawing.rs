@@ -86,6 +86,7 @@ impl Drawing {
     pub(super) fn add_crossings(
         &mut self,
         segments: &[Line],
+        surface: &Surface,
         places: &mut Places<'_>,
         most: usize,
     ) -> bool {
@@ -104,7 +105,7 @@ impl Drawing {
                     && span[0].y <= other[1].y
                     && let Some(at) = self.crossing(*s, *t)
                 {
-                    let vertex = places.vertex_at(self.place(at));
+                    let vertex = places.vertex_at(self.place(at), surface);
                     self.point(vertex, places);
                 }
             }
@@ -165,15 +166,15 @@ mod tests {
         let mut vertices: Vec<DVec3> = at.iter().map(|p| DVec3::new(p[0], p[1], 0.0)).collect();
         let mut places = Places::new(&mut vertices, 1e-6);
         let corners = [0, 1, 2].map(VertexId);
-        let surface = Surface { corners, normal: DVec3::Z, two_sided: false };
+        let surface = Surface { corners, normal: DVec3::Z, lit: [true, false] };
         let mut drawing = Drawing::new(&surface, &places);
         for v in 3..7 {
             assert_eq!(drawing.point(VertexId(v), &places), v as usize);
         }
         // The diagonals of a square of side 2 cross in one more point, the eighth.
         let diagonals = [(3, 4), (5, 6)];
-        assert!(!drawing.add_crossings(&diagonals, &mut places, 7));
-        assert!(drawing.add_crossings(&diagonals, &mut places, 8));
+        assert!(!drawing.add_crossings(&diagonals, &surface, &mut places, 7));
+        assert!(drawing.add_crossings(&diagonals, &surface, &mut places, 8));
         assert!(places.position(VertexId(7)).distance(DVec3::new(2.0, 2.0, 0.0)) < 1e-12);
         // It lies on both, and on a line along one of them.
         for lines in [vec![(3, 4), (5, 6)], vec![(3, 4), (5, 7), (6, 7), (3, 7)]] {

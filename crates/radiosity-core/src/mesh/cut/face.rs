@@ -17,6 +17,8 @@ use crate::mesh::weld::unit_normal;
 pub(super) struct Face {
     /// Cuts from vertex to vertex.
     pub(super) across: Vec<[VertexId; 2]>,
+    /// Cuts along which nothing stands: light is the same on both sides of them.
+    pub(super) seams: Vec<[VertexId; 2]>,
     /// Vertices on edges.
     pub(super) on_edges: Vec<(Edge, VertexId)>,
     /// Parts of edges along which something stands, from vertex to vertex.
@@ -40,8 +42,8 @@ impl Face {
         let mut drawing = Drawing::new(surface, places);
         let mut barriers = Vec::new();
         let rim = self.rim(surface, &mut drawing, places, &mut barriers);
-        let across = self.across(&mut drawing, places, room)?;
-        let mut pieces = triangulate(&drawing, &rim, &across, &mut barriers)?;
+        let lines = self.lines(surface, &mut drawing, places, room)?;
+        let mut pieces = triangulate(&drawing, &rim, &lines, &mut barriers)?;
         let area = |v: &[VertexId; 3]| triangle_area(v.map(|v| places.position(v)));
         pieces.retain(|v| unit_normal(v.map(|v| places.position(v))).is_some());
         // The rim may bend by what is near, and a piece without area may be left out.
@@ -89,26 +91,41 @@ impl Face {
     }
 
     /// The cuts, parted where they cross or touch each other.
-    fn across(
+    fn lines(
         &self,
+        surface: &Surface,
         drawing: &mut Drawing,
         places: &mut Places<'_>,
         room: usize,
-    ) -> Option<BTreeSet<Line>> {
-        let mut whole: Vec<Line> = Vec::new();
-        for ends in &self.across {
-            let [i, j] = ends.map(|v| drawing.point(v, places));
-            whole.push((i.min(j), i.max(j)));
-        }
-        whole.sort_unstable();
-        whole.dedup();
+    ) -> Option<Lines> {
+        let [across, seams] = [&self.across, &self.seams].map(|cuts| {
+            let mut whole: Vec<Line> = Vec::new();
+            for ends in cuts {
+                let [i, j] = ends.map(|v| drawing.point(v, places));
+                whole.push((i.min(j), i.max(j)));
+            }
+            whole.sort_unstable();
+            whole.dedup();
+            whole
+        });
+        let all = [across.as_slice(), seams.as_slice()].concat();
         // Each cut adds a piece or more, and so does each point beyond the corners.
         let most = room.saturating_add(3);
-        if whole.len() > room || !drawing.add_crossings(&whole, places, most) {
+        if all.len() > room || !drawing.add_crossings(&all, surface, places, most) {
             return None;
         }
-        Some(drawing.parted(&whole))
+        let across = drawing.parted(&across);
+        let mut seams = drawing.parted(&seams);
+        seams.retain(|line| !across.contains(line));
+        Some(Lines { across, seams })
     }
+}
+
+/// Lines that do not cross each other.
+struct Lines {
+    across: BTreeSet<Line>,
+    /// Those along which nothing stands.
+    seams: BTreeSet<Line>,
 }
 
 /// A point of a triangulation, and its number in the drawing.
@@ -130,7 +147,7 @@ impl HasPosition for Spot {
 fn triangulate(
     drawing: &Drawing,
     rim: &BTreeSet<Line>,
-    across: &BTreeSet<Line>,
+    lines: &Lines,
     barriers: &mut Vec<Edge>,
 ) -> Option<Vec<[VertexId; 3]>> {
     let mut mesh = ConstrainedDelaunayTriangulation::<Spot>::new();
@@ -140,7 +157,7 @@ fn triangulate(
         let [x, y] = at.to_array().map(|c| if c.abs() < NEXT_TO_NOTHING { 0.0 } else { c });
         handles.push(mesh.insert(Spot { at: Point2::new(x, y), number }).ok()?);
     }
-    for &(i, j) in rim.iter().chain(across) {
+    for &(i, j) in rim.iter().chain(&lines.across).chain(&lines.seams) {
         // A line that bends towards a point on it, by less than what is near, may come to cross
         // another one. That is as rare as three walls that miss each other by a hair.
         let (from, to) = (handles[i], handles[j]);
@@ -151,7 +168,8 @@ fn triangulate(
     let vertex = |number: usize| drawing.vertices[number];
     for line in mesh.undirected_edges().filter(|line| line.is_constraint_edge()) {
         let [i, j] = line.vertices().map(|spot| spot.data().number);
-        if !rim.contains(&(i.min(j), i.max(j))) {
+        let line = (i.min(j), i.max(j));
+        if !rim.contains(&line) && !lines.seams.contains(&line) {
             barriers.push(edge(vertex(i), vertex(j)));
         }
     }

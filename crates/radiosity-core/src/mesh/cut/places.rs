@@ -5,6 +5,13 @@ use std::collections::HashMap;
 use glam::DVec3;
 use scene::VertexId;
 
+use super::Surface;
+use super::contact::End;
+
+/// How far a vertex may be out of a plane to lie in it, as a share of what is near: a billionth
+/// of the scene's extent, which is what the solver takes to be in a shooter's plane.
+const FLAT: f64 = 1e-3;
+
 /// The vertices, and the way to those near a place.
 pub(super) struct Places<'a> {
     vertices: &'a mut Vec<DVec3>,
@@ -33,8 +40,31 @@ impl<'a> Places<'a> {
         self.vertices[vertex.index()]
     }
 
-    /// The first of the vertices near a place, or a new one if none is near.
-    pub(super) fn vertex_at(&mut self, place: DVec3) -> VertexId {
+    /// The vertex of a triangle's plane where a cut ends.
+    pub(super) fn vertex_of(&mut self, end: End, surface: &Surface) -> VertexId {
+        match end {
+            // Corners that should be one, but are not to the bit, are one for cuts.
+            End::Corner(vertex) => self.vertex_at(self.position(vertex), surface),
+            End::Edge(place) => self.vertex_at(place, surface),
+        }
+    }
+
+    /// The first of the vertices in a triangle's plane near a place, or a new one if none is near.
+    ///
+    /// A piece that is bent out of its plane, by no more than what is near, lies partly before the
+    /// rest of the triangle, and they would light each other.
+    pub(super) fn vertex_at(&mut self, place: DVec3, surface: &Surface) -> VertexId {
+        let origin = self.position(surface.corners[0]);
+        let height = |place: DVec3| (place - origin).dot(surface.normal);
+        let flat = FLAT * self.near;
+        let over = height(place);
+        let place = if over.abs() <= flat { place } else { place - surface.normal * over };
+        let first = self.first_near(place, |there| height(there).abs() <= flat);
+        first.unwrap_or_else(|| self.add(place))
+    }
+
+    /// The first of the vertices near a place that will do.
+    fn first_near(&self, place: DVec3, will_do: impl Fn(DVec3) -> bool) -> Option<VertexId> {
         let [x, y, z] = self.cell(place);
         let mut first: Option<VertexId> = None;
         for dx in -1..=1 {
@@ -43,16 +73,18 @@ impl<'a> Places<'a> {
                     let cell = [x.saturating_add(dx), y.saturating_add(dy), z.saturating_add(dz)];
                     for &vertex in self.cells.get(&cell).into_iter().flatten() {
                         let is_first = first.is_none_or(|first| vertex < first);
-                        if is_first && self.position(vertex).distance(place) <= self.near {
+                        let there = self.position(vertex);
+                        if is_first && there.distance(place) <= self.near && will_do(there) {
                             first = Some(vertex);
                         }
                     }
                 }
             }
         }
-        if let Some(vertex) = first {
-            return vertex;
-        }
+        first
+    }
+
+    fn add(&mut self, place: DVec3) -> VertexId {
         let vertex = VertexId::from(self.vertices.len());
         self.vertices.push(place);
         self.enter(vertex);
@@ -77,19 +109,39 @@ mod tests {
 
     #[test]
     fn near_places_are_one_vertex_across_the_walls_of_cells() {
-        let mut vertices = vec![DVec3::ZERO, DVec3::X];
+        let mut vertices = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
         let mut places = Places::new(&mut vertices, 0.01);
-        for way in [DVec3::X, DVec3::NEG_X, DVec3::ONE.normalize(), DVec3::NEG_Y] {
-            assert_eq!(places.vertex_at(way * 0.0099), VertexId(0));
+        let corners = [0, 1, 2].map(VertexId);
+        let floor = Surface { corners, normal: DVec3::Z, lit: [true, false] };
+        let at = |places: &mut Places<'_>, place: DVec3| places.vertex_at(place, &floor);
+        for way in [DVec3::X, DVec3::NEG_X, DVec3::new(0.6, -0.8, 0.0), DVec3::NEG_Y] {
+            assert_eq!(at(&mut places, way * 0.0099), VertexId(0));
         }
-        assert_eq!(places.vertex_at(DVec3::X * 1.002), VertexId(1));
-        let new = places.vertex_at(DVec3::NEG_X * 0.0101);
-        assert_eq!((new, places.position(new)), (VertexId(2), DVec3::NEG_X * 0.0101));
+        assert_eq!(at(&mut places, DVec3::X * 1.002), VertexId(1));
+        let new = at(&mut places, DVec3::NEG_X * 0.0101);
+        assert_eq!((new, places.position(new)), (VertexId(3), DVec3::NEG_X * 0.0101));
         // Between two, the first.
-        assert_eq!(places.vertex_at(DVec3::NEG_X * 0.006), VertexId(0));
-        assert_eq!(places.vertex_at(DVec3::NEG_X * 0.0102), VertexId(2));
+        assert_eq!(at(&mut places, DVec3::NEG_X * 0.006), VertexId(0));
+        assert_eq!(at(&mut places, DVec3::NEG_X * 0.0102), VertexId(3));
         // Far away, all cells are one, and places are still told apart.
-        let [a, b] = [1e300, 2e300].map(|x| places.vertex_at(DVec3::splat(x)));
+        let [a, b] = [1e300, 2e300].map(|x| at(&mut places, DVec3::X * x));
         assert_ne!(a, b);
+    }
+
+    #[test]
+    fn a_vertex_for_a_plane_lies_in_it() {
+        let above = DVec3::new(0.5, 0.2, 0.009);
+        let mut vertices = vec![DVec3::ZERO, DVec3::X, DVec3::Y, above];
+        let mut places = Places::new(&mut vertices, 0.01);
+        let corners = [0, 1, 2].map(VertexId);
+        let floor = Surface { corners, normal: DVec3::Z, lit: [true, false] };
+        let wall = Surface { corners: [VertexId(0), VertexId(2), VertexId(3)], ..floor };
+        let wall = Surface { normal: DVec3::new(0.009, 0.0, -0.5).normalize(), ..wall };
+        let foot = places.vertex_of(End::Corner(VertexId(3)), &floor);
+        assert_eq!((foot, places.position(foot)), (VertexId(4), DVec3::new(0.5, 0.2, 0.0)));
+        // From then on it is there; the wall keeps its own, and a corner of both serves both.
+        assert_eq!(places.vertex_at(above, &floor), foot);
+        assert_eq!(places.vertex_of(End::Corner(VertexId(3)), &wall), VertexId(3));
+        assert_eq!(places.vertex_at(DVec3::new(0.001, 0.0, 0.009), &floor), VertexId(0));
     }
 }
