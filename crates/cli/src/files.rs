@@ -32,7 +32,7 @@ pub(crate) fn check_apart(scene: Option<&Path>, outputs: &[&Path]) -> Result<(),
             return Err(Failure::Usage("--report -: expected a file; stdout is for -o -".into()));
         }
         if scene.is_some_and(|scene| place(scene) == place(path)) {
-            return Err(Failure::Usage(format!("{shown}: is the scene itself; name another file")));
+            return Err(Failure::Usage(format!("{shown}: is what is read; name another file")));
         }
         let special = std::fs::metadata(path).is_ok_and(|m| !m.is_file());
         if !special && outputs[..i].iter().any(|other| place(other) == place(path)) {

@@ -57,6 +57,9 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     });
     let paths: Vec<&Path> = paths.chain(&settings.report).map(PathBuf::as_path).collect();
     files::check_apart(settings.scene.as_deref(), &paths)?;
+    if let Some(probe) = &settings.probe {
+        files::check_apart(Some(probe), &paths)?;
+    }
     for path in paths {
         files::check(path)?;
     }

@@ -166,7 +166,10 @@ impl<E: Executor> Ladder<'_, E> {
             return None;
         }
         let Level { iteration, sampled, probes, .. } = &rung.level;
-        let [triangles, points, places] = rung.mesh_errors;
+        let [triangles, points, places] = match rung.level.unseen {
+            true => [Measured::UNKNOWN; 3],
+            false => rung.mesh_errors,
+        };
         Some(Statement {
             triangles: stated(*iteration, sampled.triangles, triangles),
             points: stated(*iteration, sampled.points, points),

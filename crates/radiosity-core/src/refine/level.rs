@@ -39,6 +39,9 @@ pub(super) struct Level {
     /// Exitance at the probes.
     pub(super) probes: Vec<Rgb>,
     pub(super) counted: Counted,
+    /// There is light, and surfaces that could reflect it, but none was found on them: then
+    /// nothing is known of what was missed.
+    pub(super) unseen: bool,
     pub(super) iteration: Measured,
     pub(super) sampled: Sampled,
 }
@@ -86,7 +89,13 @@ impl<E: Executor> Setting<'_, E> {
         };
         let received = shooting.at_probes();
         let probes = place::exitance(scene, &mesh, &solution, self.probes, received);
+        let could = mesh
+            .elements
+            .iter()
+            .any(|e| counted.counts(&mesh, e) && mesh.root_of(e).reflectance != Rgb::ZERO);
+        let lit = reason != StopReason::NoLight;
         Level {
+            unseen: lit && could && whole.power == Rgb::ZERO,
             probes,
             ledger: shooting.ledger(),
             work: shooting.report(),

@@ -26,7 +26,7 @@ use scene::{Rgb, Solution};
 
 use crate::census::Census;
 use crate::config::{Correction, Exchange, ShootingConfig};
-use crate::energy::RgbSum;
+use crate::energy::{RgbSum, Sum};
 use crate::executor::Executor;
 use crate::mesh::{Mesh, ReceiverPoint};
 use crate::observer::{Control, Observer, StepReport};
@@ -55,6 +55,8 @@ pub struct Shooting<'a, E: Executor> {
     state: State,
     /// Mean irradiance, if no light escaped: emitted power over Σ A (1 − ρ).
     mean: Rgb,
+    /// Channels that are lit and that no surface absorbs.
+    endless: [bool; 3],
     emitted: Rgb,
     account: Account,
     shots: u64,
@@ -103,18 +105,22 @@ impl<'a, E: Executor> Shooting<'a, E> {
         let receivers: Vec<_> = mesh.points.iter().chain(probes).copied().collect();
         let mut emitted = RgbSum::default();
         let mut absorption = RgbSum::default();
+        let mut area = Sum::default();
         let mut most = 0.0f64;
         for element in &mesh.elements {
             let root = mesh.root_of(element);
             emitted.add(root.emittance * element.area);
             absorption.add((Rgb::splat(1.0) - root.reflectance) * element.area);
+            area.add(element.area);
             most = most.max(root.reflectance.max_channel());
         }
         let emitted = emitted.value() * sides(config.exchange);
+        let absorption = absorption.value();
         let stiff = config.correction == Correction::Auto && most > 1.0 - LOSS_OF_PLAIN;
         Self {
             state: State::new(mesh, receivers.len()),
-            mean: emitted.share_of(absorption.value()),
+            mean: mean_irradiance(emitted, absorption, area.value()),
+            endless: [0, 1, 2].map(|c| emitted[c] > 0.0 && absorption[c] == 0.0),
             emitted,
             ambient: stiff.then(|| Ambient::new(mesh, receivers.len())),
             arriving: vec![Rgb::ZERO; receivers.len()],
@@ -244,6 +250,18 @@ impl<'a, E: Executor> Shooting<'a, E> {
         self.account.book(rest.value(), sampled);
         self.watch(power);
     }
+}
+
+/// What light there is on average, if none escaped: emitted power over Σ A (1 − ρ). Where
+/// nothing absorbs, that of one bounce: cells are split for what matters beside it, and beside
+/// nothing everything would.
+fn mean_irradiance(emitted: Rgb, absorption: Rgb, area: f64) -> Rgb {
+    let mean = |c: usize| match (absorption[c] > 0.0, area > 0.0) {
+        (true, _) => emitted[c] / absorption[c],
+        (false, true) => emitted[c] / area,
+        (false, false) => 0.0,
+    };
+    Rgb([0, 1, 2].map(mean))
 }
 
 /// How many sides of a surface shine with its exitance.

@@ -67,8 +67,6 @@ impl<E: Executor> Shooting<'_, E> {
     /// Whether light in some lit channel can go nowhere: every reflectance is 1, and no
     /// sampled direction meets a back or leaves the scene.
     fn nothing_absorbs(&self) -> bool {
-        (0..3).any(|c| self.emitted[c] > 0.0 && self.mean[c] == 0.0)
-            && !self.census.is_empty()
-            && !self.census.any_lost()
+        self.endless.contains(&true) && !self.census.is_empty() && !self.census.any_lost()
     }
 }

@@ -138,7 +138,7 @@ impl Plan {
             } else {
                 self.faces[&number].cut(surface, places, room)
             };
-            let added = |pieces: &[_]| (pieces.len() - 1) * surface.sides();
+            let added = |pieces: &[_]| pieces.len().saturating_sub(1) * surface.sides();
             let mut pieces = vec![Piece { corners: surface.corners, lit }];
             if let Some((parts, barriers)) = cuts
                 && added(&parts) <= room
