@@ -76,6 +76,15 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
     if outputs.iter().filter(|t| **t == Target::Stdout).count() > 1 {
         return Err(Failure::Usage("-o -: stdout takes one table, and is named twice".into()));
     }
+    if let Some(report) =
+        args.report.as_deref().filter(|r| r.extension().is_none_or(|e| e != "json"))
+        && !std::fs::metadata(report).is_ok_and(|m| !m.is_file())
+    {
+        let shown = report.display();
+        return Err(Failure::Usage(format!(
+            "--report {shown}: expected a name that ends in .json"
+        )));
+    }
     let wants_probes = outputs.iter().any(|t| matches!(t, Target::Probes(_)));
     match (&args.probe, wants_probes) {
         (Some(_), false) => {

@@ -23,6 +23,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     files::check_apart(Some(&args.input), &[path])?;
     files::check(path)?;
     let (file, imported) = solve::open(Some(&args.input), &read)?;
+    if format != Format::Tri {
+        solve::check_factors(&file, &imported, &read)?;
+    }
     say(&format!("{file}: {}", imported.summary));
     screen::diagnostics(&imported.diagnostics);
     let scene = &imported.scene;

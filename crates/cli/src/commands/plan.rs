@@ -19,6 +19,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
     let read = settings::read(&args.read)?;
     let work = settings::work(&args.work)?;
     let (file, imported) = solve::open(Some(&args.scene), &read)?;
+    solve::check_factors(&file, &imported, &read)?;
     solve::check_paired(&imported.scene, &read)?;
     result(&format!("{file}: {}", imported.summary))?;
     say_scene(&imported)?;

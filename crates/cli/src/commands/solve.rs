@@ -65,6 +65,7 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     }
     let clock = Instant::now();
     let (file, imported) = open(settings.scene.as_deref(), &settings.read)?;
+    check_factors(&file, &imported, &settings.read)?;
     let read_seconds = clock.elapsed().as_secs_f64();
     say(&format!("{file}: {}", imported.summary));
     screen::diagnostics(&imported.diagnostics);
@@ -158,6 +159,17 @@ pub(crate) fn open(path: Option<&Path>, read: &Read) -> Result<(String, Imported
         Some(path) => Ok((path.display().to_string(), scene_import::open(path, &read.options)?)),
         None => Ok((bundled::NAME.to_owned(), bundled::open(&read.options)?)),
     }
+}
+
+/// Refuses factors that only .tri files know, for any other scene.
+pub(crate) fn check_factors(name: &str, imported: &Imported, read: &Read) -> Result<(), Failure> {
+    let format = imported.summary.format;
+    let plain = scene_import::Options { sides: read.options.sides, ..Default::default() };
+    if format == scene_import::Format::Tri || read.options == plain {
+        return Ok(());
+    }
+    let message = format!("--light, --reflect: are for .tri files, and {name} is {format}");
+    Err(Failure::Usage(message))
 }
 
 /// The paired rule re-emits on both sides: above one half, light would grow for ever.

@@ -150,6 +150,7 @@ fn wrong_command_lines_exit_with_2_before_any_work() {
         &["solve", "box.tri", "-o", "a.csv", "-o", "./a.csv"],
         &["solve", "box.tri", "-o", "a.csv", "--report", "a.csv"],
         &["solve", "box.tri", "-o", "-", "-o", "-"],
+        &["solve", "box.tri", "-o", "a.csv", "--report", "box.mtl"],
         &["solve", "box.tri", "-o", "a.csv", "--elements", "0"],
         &["convert", "box.tri", "box.csv"],
         &["convert", "box.tri", "box.tri"],
@@ -345,4 +346,19 @@ fn verify_prints_a_row_per_case() {
     assert!(lines[0].starts_with("case") && lines[1].contains("0.138531606"), "{text}");
     assert!(lines[2].starts_with("1 of 1 passed"), "{text}");
     assert_eq!(radiosity(folder.path(), &["verify", "--only", "no such"]).code(), 2);
+}
+
+#[test]
+fn factors_of_tri_files_are_refused_for_others() {
+    let (folder, _) = folder_with("box.tri", box_tri().as_bytes());
+    assert_eq!(radiosity(folder.path(), &["convert", "box.tri", "box.glb"]).code(), 0);
+    for flag in ["--light", "--reflect"] {
+        let args = ["solve", "box.glb", flag, "0.3", "--elements", "20", "-o", "-"];
+        let run = radiosity(folder.path(), &args);
+        assert_eq!(run.code(), 2, "{}", run.stderr());
+        assert!(run.stderr().contains("are for .tri files"), "{}", run.stderr());
+        // They are the factors of what is written, too.
+        let again = ["convert", "box.glb", "again.tri", flag, "0.9"];
+        assert_eq!(radiosity(folder.path(), &again).code(), 0);
+    }
 }

@@ -129,6 +129,10 @@ fn light_at(mesh: &Mesh, solution: &Solution, roots: &[u32], place: DVec3) -> Op
     // Of pieces that share an edge, the one that the place lies deepest in.
     let deepest = |a: u32, b: u32| if inside(b) > inside(a) { b } else { a };
     let mut node = roots.iter().copied().reduce(deepest)?;
+    if inside(node) < -SAME {
+        // What an earlier surface covers has no light of its own.
+        return None;
+    }
     while let Some(child) = mesh.nodes[node as usize].children {
         node = deepest(child, child + 1);
     }
