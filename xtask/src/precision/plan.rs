@@ -8,7 +8,7 @@ use super::numbers::{percent, seconds};
 use super::program::{Program, Said};
 use super::subject::Subject;
 
-/// Runs of one solve. More of them would show how much the machine's moods weigh.
+/// Runs of one solve; five and more also show how much the machine's moods weigh.
 const RUNS: usize = 1;
 
 /// Runs of a solve that takes longer than [`LONG`]: the machine's moods average out.

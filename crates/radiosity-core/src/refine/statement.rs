@@ -75,7 +75,7 @@ pub(super) struct Step {
 /// The factor on the estimate of the mesh's error: differences between meshes scatter.
 ///
 /// Against path-traced references, true error over estimate lies between .3 and 1 for the
-/// scenes and element counts of docs/accuracy.md.
+/// scenes and goals of docs/precision.md, on which it was chosen.
 const SAFETY: f64 = 1.1;
 
 /// The error of the last mesh, from one or two steps up to it (Richardson 1911).
