@@ -24,6 +24,9 @@ pub struct MeshConfig {
     /// Whether triangles are cut where others touch or cross them, so that no element lies on
     /// both sides of a wall.
     pub cut: bool,
+    /// Whether elements are smaller round lamps that are small beside them. The mesh then depends
+    /// on the lamps' powers, and light is the sum of that of single lamps but for its error.
+    pub graded: bool,
 }
 
 impl MeshConfig {
@@ -31,7 +34,7 @@ impl MeshConfig {
     /// it, so that a sweep of shots costs `elements`^1.5 rather than its square.
     #[must_use]
     pub fn with_elements(elements: usize) -> Self {
-        Self { elements, patch_elements: patch_size(elements), cut: true }
+        Self { elements, patch_elements: patch_size(elements), cut: true, graded: true }
     }
 }
 

@@ -6,7 +6,7 @@ use radiosity_core::{Correction, ShootingConfig, StopRule};
 use radiosity_par::Pool;
 use scene::Rgb;
 
-use crate::rooms::{Piece, cube_of, light, light_on, room};
+use crate::rooms::{Piece, cube_of, light, light_on, light_on_one_mesh, room};
 use crate::runner;
 
 /// Elements of a room.
@@ -84,9 +84,9 @@ fn more_light_and_more_reflectance_never_darken() {
             for (piece, more) in lamps.iter_mut().zip(&more) {
                 piece.emittance = piece.emittance.map(|e| e * (1.0 + more));
             }
-            let before = light(&pieces, ELEMENTS, linear());
+            let before = light_on_one_mesh(&pieces, ELEMENTS, linear());
             for after in [brighter, lamps] {
-                let after = light(&after, ELEMENTS, linear());
+                let after = light_on_one_mesh(&after, ELEMENTS, linear());
                 for c in 0..3 {
                     let most = after.values().map(|b| b[c]).fold(0.0, f64::max);
                     for (a, b) in before.values().zip(after.values()) {

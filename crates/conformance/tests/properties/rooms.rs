@@ -130,16 +130,31 @@ pub(crate) fn light(pieces: &[Piece], elements: usize, config: ShootingConfig) -
     light_on(pieces, elements, config, &Sequential)
 }
 
+/// On a mesh that does not depend on the lamps.
+pub(crate) fn light_on_one_mesh(pieces: &[Piece], elements: usize, config: ShootingConfig) -> Lit {
+    let mesh = MeshConfig { graded: false, ..MeshConfig::with_elements(elements) };
+    light_through(pieces, mesh, config, &Sequential)
+}
+
 pub(crate) fn light_on<E: Executor>(
     pieces: &[Piece],
     elements: usize,
     config: ShootingConfig,
     executor: &E,
 ) -> Lit {
+    light_through(pieces, MeshConfig::with_elements(elements), config, executor)
+}
+
+fn light_through<E: Executor>(
+    pieces: &[Piece],
+    mesh: MeshConfig,
+    config: ShootingConfig,
+    executor: &E,
+) -> Lit {
     let scene = scene(pieces);
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
     let bvh = Bvh::build(&triangles, &BvhConfig::DEFAULT);
-    let mesh = Mesh::from_scene(&scene, &MeshConfig::with_elements(elements));
+    let mesh = Mesh::from_scene(&scene, &mesh);
     let census = Census::take(&scene, &mesh, &bvh, config.exchange, executor);
     let mut shooting = Shooting::new(&mesh, &bvh, &census, executor, config);
     shooting.run(&mut ());

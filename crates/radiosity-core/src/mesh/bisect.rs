@@ -1,4 +1,9 @@
 //! Longest-edge bisection: halve the longest edge of the mesh until there are enough elements.
+//!
+//! Where the mesh is graded, the edge that counts for the longest may not be the longest of its
+//! leaves. Then the longest edges that lead to it are halved first, from the far end of the chain
+//! (Rivara 1997, "New longest-edge algorithms for the refinement and/or improvement of
+//! unstructured triangulations"): every edge is the longest of all its leaves when it is halved.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
@@ -8,6 +13,7 @@ use scene::VertexId;
 
 use super::Node;
 use super::cut::{Edge, edge};
+use super::grade::Grade;
 
 /// Grows the forest over the given roots to about `elements` leaves: stops when the next
 /// edge would leave more than that. Halves of barriers are barriers.
@@ -15,20 +21,23 @@ pub(super) fn forest(
     vertices: Vec<DVec3>,
     roots: Vec<[VertexId; 3]>,
     barriers: HashSet<Edge>,
+    grade: &Grade,
     elements: usize,
 ) -> (Vec<DVec3>, Vec<Node>, HashSet<Edge>) {
-    let mut grower = Grower::new(vertices, roots, barriers);
+    let mut grower = Grower::new(vertices, roots, barriers, grade);
     while grower.leaves < elements && grower.halve_longest(elements) {}
     (grower.vertices, grower.nodes, grower.barriers)
 }
 
-struct Grower {
+struct Grower<'a> {
+    grade: &'a Grade,
     vertices: Vec<DVec3>,
     nodes: Vec<Node>,
     leaves: usize,
     /// The leaves at each edge of the present mesh; at most two unless surfaces meet there.
     at_edge: HashMap<Edge, Vec<u32>>,
-    /// Edges by length, the longest first; ties go to the smallest vertices.
+    /// Edges by what they count for, the longest first; ties go to the smallest vertices.
+    /// Halved ones stay until their turn comes.
     queue: BinaryHeap<(Length, Reverse<Edge>)>,
     /// Edges along contacts.
     barriers: HashSet<Edge>,
@@ -56,9 +65,15 @@ fn edges([a, b, c]: [VertexId; 3]) -> [Edge; 3] {
     [edge(a, b), edge(b, c), edge(c, a)]
 }
 
-impl Grower {
-    fn new(vertices: Vec<DVec3>, roots: Vec<[VertexId; 3]>, barriers: HashSet<Edge>) -> Self {
+impl<'a> Grower<'a> {
+    fn new(
+        vertices: Vec<DVec3>,
+        roots: Vec<[VertexId; 3]>,
+        barriers: HashSet<Edge>,
+        grade: &'a Grade,
+    ) -> Self {
         let mut grower = Self {
+            grade,
             vertices,
             nodes: Vec::with_capacity(2 * roots.len()),
             leaves: roots.len(),
@@ -72,13 +87,45 @@ impl Grower {
         grower
     }
 
-    /// Halves the longest edge, unless that would leave more than `most` leaves.
+    /// Halves the edge that counts for the longest, or one on the way to it, unless that would
+    /// leave more than `most` leaves.
     fn halve_longest(&mut self, most: usize) -> bool {
-        let Some((_, Reverse(edge))) = self.queue.pop() else { return false };
-        let leaves = self.at_edge.remove(&edge).unwrap_or_default();
-        if self.leaves + leaves.len() > most {
+        while let Some((_, Reverse(edge))) = self.queue.peek()
+            && !self.at_edge.contains_key(edge)
+        {
+            self.queue.pop();
+        }
+        let Some(&(_, Reverse(edge))) = self.queue.peek() else { return false };
+        let edge = self.end_of_chain(edge);
+        if self.leaves + self.at_edge[&edge].len() > most {
             return false;
         }
+        self.halve(edge);
+        true
+    }
+
+    /// Follows longer and longer edges of leaves from `edge`, to one that is the longest of all
+    /// its leaves. Each is longer than the one before, so the way ends.
+    fn end_of_chain(&self, mut edge: Edge) -> Edge {
+        loop {
+            let leaves = self.at_edge[&edge].iter();
+            let edges = leaves.flat_map(|&leaf| edges(self.nodes[leaf as usize].vertices));
+            let longest = edges.max_by_key(|&e| self.rank(e)).unwrap_or(edge);
+            if self.rank(longest) <= self.rank(edge) {
+                return edge;
+            }
+            edge = longest;
+        }
+    }
+
+    /// Orders edges by their true length; ties go to the smallest vertices.
+    fn rank(&self, edge: Edge) -> (Length, Reverse<Edge>) {
+        let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
+        (Length((q - p).length_squared()), Reverse(edge))
+    }
+
+    fn halve(&mut self, edge: Edge) {
+        let leaves = self.at_edge.remove(&edge).unwrap_or_default();
         let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
         let middle = VertexId::from(self.vertices.len());
         self.vertices.push(p.midpoint(q));
@@ -89,7 +136,6 @@ impl Grower {
         for leaf in leaves {
             self.bisect(leaf, edge, middle);
         }
-        true
     }
 
     fn bisect(&mut self, leaf: u32, edge: Edge, middle: VertexId) {
@@ -120,7 +166,7 @@ impl Grower {
             self.at_edge
                 .entry(edge)
                 .or_insert_with(|| {
-                    self.queue.push((Length((q - p).length_squared()), Reverse(edge)));
+                    self.queue.push((Length(self.grade.squared_length(p, q)), Reverse(edge)));
                     Vec::with_capacity(2)
                 })
                 .push(id);

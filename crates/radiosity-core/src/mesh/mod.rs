@@ -3,6 +3,7 @@
 
 mod bisect;
 mod cut;
+mod grade;
 mod patch;
 mod points;
 mod weld;
@@ -13,6 +14,7 @@ use glam::DVec3;
 use scene::{Face, Rgb, Scene, TriangleId, VertexId};
 
 use crate::config::MeshConfig;
+use grade::Grade;
 pub(crate) use patch::bounding;
 pub use points::ReceiverPoint;
 use weld::Roots;
@@ -102,7 +104,9 @@ impl Mesh {
     ///
     /// The longest edge of the whole mesh is halved, in all triangles that share it, until
     /// there are enough elements: so no split leaves a T-vertex, and the smallest angle
-    /// stays at least half of what it was (Rosenberg & Stenger 1975). Triangles without
+    /// stays at least half of what it was (Rosenberg & Stenger 1975). Where `config.graded` says so, round a lamp that is small
+    /// beside the elements, edges count for longer than they are, until they are about as short as
+    /// the lamp is wide or far. Triangles without
     /// area, exact duplicates of earlier ones, and those wholly covered have no elements. Time
     /// N·log N.
     #[must_use]
@@ -110,8 +114,12 @@ impl Mesh {
         let extent = weld::extent(scene);
         let Roots { vertices, roots, corners, barriers, covered } =
             weld::roots(scene, config.cut, extent);
+        let grade = match config.graded {
+            true => Grade::of(&vertices, &roots, &corners),
+            false => Grade::default(),
+        };
         let (vertices, nodes, barriers) =
-            bisect::forest(vertices, corners, barriers, config.elements);
+            bisect::forest(vertices, corners, barriers, &grade, config.elements);
         let mut mesh = Self { vertices, roots, nodes, extent, covered, ..Self::default() };
         patch::number_elements(&mut mesh);
         patch::choose(&mut mesh, config.patch_elements.max(1));

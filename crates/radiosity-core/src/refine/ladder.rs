@@ -11,7 +11,11 @@ use crate::observer::{LevelReport, Observer, StepReport};
 use crate::shooting::StopReason;
 
 /// Elements of the first level, or the scene's own triangles if those are more.
-const FIRST_ELEMENTS: usize = 1000;
+const FIRST_ELEMENTS: usize = 100;
+
+/// No mesh with fewer elements ends the work, however good it seems: too little of the scene is
+/// seen for its differences to say anything.
+const LEAST_ELEMENTS: usize = 1000;
 
 /// Growth of the elements from level to level.
 const GROWTH: f64 = 4.0;
@@ -107,7 +111,8 @@ impl<E: Executor> Ladder<'_, E> {
             }
             Asked::Error(target) => {
                 let parts = statement.map_or_else(Parts::default, |s| s.triangles.e1);
-                if statement.is_some() && parts.total() <= target {
+                let seen = have >= LEAST_ELEMENTS.min(self.most_elements);
+                if statement.is_some() && parts.total() <= target && seen {
                     return Err(Reached::Error);
                 }
                 let left = target * AIM - parts.iteration - parts.form_factor;
@@ -193,6 +198,15 @@ impl<E: Executor> Ladder<'_, E> {
                 }
             }
             _ => (rung, statement),
+        };
+        // A level that was cut short may state what was asked all the same.
+        let reached = match (self.setting.asked, reached, &statement) {
+            (Asked::Error(target), Reached::Stopped, Some(s))
+                if s.triangles.e1.total() <= target =>
+            {
+                Reached::Error
+            }
+            _ => reached,
         };
         let level = rung.level;
         Refined {

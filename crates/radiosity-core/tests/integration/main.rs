@@ -5,6 +5,7 @@
 mod balance;
 mod cut;
 mod furnace;
+mod graded;
 mod limits;
 mod matrix;
 mod mesh;

@@ -132,7 +132,7 @@ fn a_level_cut_short_gives_way_to_the_one_before() {
     let refined = watched(&scene, Asked::Error(1e-4), 1 << 20, &[], &mut observer);
     assert_eq!(refined.reached, Reached::Stopped);
     // The second level: after five shots the third is mostly dark.
-    assert_eq!(refined.mesh.elements().len(), 4_000);
+    assert_eq!(refined.mesh.elements().len(), 400);
     assert!(refined.statement.unwrap().triangles.e1.total().is_finite());
 }
 
