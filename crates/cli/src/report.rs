@@ -68,6 +68,7 @@ struct MeshFacts {
     elements: usize,
     patches: usize,
     receiver_points: usize,
+    covered_triangles: usize,
 }
 
 #[derive(Serialize)]
@@ -237,6 +238,7 @@ impl Report {
                 elements: refined.mesh.elements().len(),
                 patches: refined.mesh.patches().len(),
                 receiver_points: refined.mesh.points().len(),
+                covered_triangles: refined.mesh.covered(),
             },
             occluder: OccluderFacts {
                 kind: prepared.occluder_name,

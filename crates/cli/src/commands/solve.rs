@@ -228,6 +228,13 @@ fn say_solved(prepared: &Prepared, solved: &Solved) {
         prepared.threads(),
         if prepared.threads() == 1 { "thread" } else { "threads" },
     ));
+    if mesh.covered() > 0 {
+        screen::warning(&format!(
+            "{} triangles lie wholly or in part under earlier ones in their plane: what is \
+             covered takes no part",
+            count(mesh.covered() as u64)
+        ));
+    }
     if refined.reason == StopReason::NoLight {
         screen::warning("nothing emits: the scene stays dark");
         return;
