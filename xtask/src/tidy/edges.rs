@@ -41,10 +41,11 @@ const BELOW_THE_PROGRAM: &[&str] = &[
 ];
 
 /// Every member, from the bottom up.
-const RULES: [Rule; 11] = [
+const RULES: [Rule; 12] = [
     Rule { member: "tri-io", normal: &[], dev: &[] },
     Rule { member: "scene", normal: &[], dev: &[] },
     Rule { member: "accel", normal: &[], dev: &[] },
+    Rule { member: "occlusion-bench", normal: &["accel", "tri-io"], dev: &[] },
     Rule { member: "scene-import", normal: &["scene", "tri-io"], dev: &[] },
     Rule { member: "form-factor", normal: &[], dev: &[] },
     Rule { member: "radiosity-core", normal: &["accel", "form-factor", "scene"], dev: &[] },

@@ -1,0 +1,3 @@
+//! The libraries against accel's brute force.
+
+mod agree;
