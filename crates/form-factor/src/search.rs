@@ -55,7 +55,7 @@ const GUESS: f64 = 3.0;
 const RANGE: f64 = 0.02;
 
 /// Safety factor of the error where a piece is not settled.
-const UNSETTLED: f64 = 1.5;
+const UNSETTLED: f64 = 2.0;
 
 /// The same where it is: the parts are at least this much better than the whole.
 const CONVERGED: f64 = 0.25;

@@ -151,6 +151,21 @@ fn by_rays(random: &mut Random, screens: &[[DVec3; 3]]) -> (f64, f64) {
 }
 
 #[test]
+fn a_screen_over_half_of_plates_that_almost_touch_is_within_what_is_stated() {
+    // The penumbra is a hundredth of the plates wide. No closed form: the value is that of a
+    // tolerance a hundred times as tight.
+    let lower = floor([0.0, 1.0], [0.0, 1.0], 0.0);
+    let upper = ceiling([0.0, 1.0], [0.0, 1.0], 0.01);
+    let screen = occluders(&[&floor([0.0, 0.5], [0.0, 1.0], 0.005)]);
+    let exact = between_occluded(&lower, &upper, &screen, 1e-6);
+    for tolerance in [1e-1, 1e-2, 1e-3, 1e-4] {
+        let f = between_occluded(&lower, &upper, &screen, tolerance);
+        assert!((f.value - exact.value).abs() <= f.error, "{tolerance}: {f:?} {exact:?}");
+        assert!(f.error <= tolerance * f.value, "{tolerance}: {f:?}");
+    }
+}
+
+#[test]
 fn what_is_all_but_hidden_is_left_at_the_floor() {
     let (lower, upper) = plates(1.0);
     // A hole a millionth across.
