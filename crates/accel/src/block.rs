@@ -51,6 +51,18 @@ impl Block {
         }
     }
 
+    /// The vertices, four triangles to a vector; by vertex, then axis.
+    #[inline(always)]
+    pub(crate) fn vertices(&self) -> &[[Vec4; 3]; 3] {
+        &self.vertices
+    }
+
+    /// Whether the triangle in a lane crosses `segment`, which may ignore it.
+    pub(crate) fn crosses(&self, lane: usize, segment: &LocalSegment) -> bool {
+        let vertices = self.vertices.map(|v| v.map(|axis| axis[lane]));
+        Sheared::of(&vertices, segment, |x| x).crosses(segment)
+    }
+
     /// The triangles in this block, as they were packed.
     pub(crate) fn triangles(&self) -> impl Iterator<Item = LocalTriangle> {
         (0..LANES).filter(|&lane| self.indices[lane] != NO_TRIANGLE).map(|lane| LocalTriangle {
@@ -62,7 +74,25 @@ impl Block {
     /// Whether a triangle that `segment` does not ignore crosses it.
     #[inline(always)]
     pub(crate) fn blocks(&self, segment: &LocalSegment) -> bool {
-        self.crossings(segment).next().is_some()
+        let (sheared, mut candidates) = self.sieve(segment);
+        while candidates != 0 {
+            let lane = candidates.trailing_zeros() as usize & (LANES - 1);
+            candidates &= candidates - 1;
+            if !segment.ignores(self.indices[lane]) && sheared.lane(lane).crosses(segment) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The triangles as the segment sees them, and those that f32 does not rule out.
+    #[inline(always)]
+    fn sieve(&self, segment: &LocalSegment) -> (Sheared<Vec4>, u32) {
+        let sheared = Sheared::of(&self.vertices, segment, Vec4::splat);
+        let [u, v, w] = sheared.edge_functions();
+        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
+        // In an empty lane all three are NaN, hence both extremes, and the lane fails.
+        (sheared, (least.cmpge(Vec4::ZERO) | greatest.cmple(Vec4::ZERO)).bitmask())
     }
 
     /// Every crossing with a triangle that `segment` does not ignore, with the triangle's index.
@@ -71,11 +101,7 @@ impl Block {
         &self,
         segment: &LocalSegment,
     ) -> impl Iterator<Item = (u32, Crossing)> {
-        let sheared = Sheared::of(&self.vertices, segment, Vec4::splat);
-        let [u, v, w] = sheared.edge_functions();
-        let (least, greatest) = (u.min(v).min(w), u.max(v).max(w));
-        // In an empty lane all three are NaN, hence both extremes, and the lane fails.
-        let mut candidates = (least.cmpge(Vec4::ZERO) | greatest.cmple(Vec4::ZERO)).bitmask();
+        let (sheared, mut candidates) = self.sieve(segment);
         std::iter::from_fn(move || {
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize;
@@ -84,13 +110,19 @@ impl Block {
                 if segment.ignores(index) {
                     continue;
                 }
-                let pick = |rows: [Vec4; 3]| rows.map(|row| row[lane]);
-                let one = Sheared { x: pick(sheared.x), y: pick(sheared.y), z: pick(sheared.z) };
-                if let Some(crossing) = one.crossing(segment) {
+                if let Some(crossing) = sheared.lane(lane).crossing(segment) {
                     return Some((index, crossing));
                 }
             }
             None
         })
+    }
+}
+
+impl Sheared<Vec4> {
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> Sheared<f32> {
+        let pick = |rows: [Vec4; 3]| rows.map(|row| row[lane]);
+        Sheared { x: pick(self.x), y: pick(self.y), z: pick(self.z) }
     }
 }

@@ -106,6 +106,33 @@ impl Frame {
         local.abs().cmple(self.half + CLIP_MARGIN).all()
     }
 
+    /// Narrows the local positions of some points, by axis; returns which of them the frame holds,
+    /// one bit each. As [`Self::local`] and [`Self::holds`], in loops that compilers make wide.
+    #[inline(always)]
+    pub(crate) fn narrow<const N: usize>(
+        &self,
+        points: [&DVec3; N],
+        narrowed: &mut [[f32; N]; 3],
+    ) -> u32 {
+        let limit = self.half + CLIP_MARGIN;
+        let mut inside = [true; N];
+        for axis in 0..3 {
+            let mut local = [0.0; N];
+            for i in 0..N {
+                local[i] = (points[i][axis] - self.centre[axis]) * self.scale;
+            }
+            for i in 0..N {
+                inside[i] &= local[i].abs() <= limit[axis]; // not so for NaN
+                narrowed[axis][i] = local[i] as f32;
+            }
+        }
+        let mut held = 0;
+        for (i, inside) in inside.into_iter().enumerate() {
+            held |= u32::from(inside) << i;
+        }
+        held
+    }
+
     /// The part of [t0, t1] in which `from + t * direction` is within the margin around the bounds
     /// (Cyrus & Beck 1978; Kay & Kajiya 1986); `None` if there is none or a value is not finite.
     pub(crate) fn clip(

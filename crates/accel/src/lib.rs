@@ -1,5 +1,5 @@
 #![doc = include_str!("../README.md")]
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 mod aabb;
 mod batch;
@@ -8,11 +8,13 @@ mod brute_force;
 pub mod bvh;
 mod frame;
 mod hit;
+mod lanes;
 mod local;
 mod nothing;
 mod occluder;
 pub mod octree;
 mod segment;
+mod simd;
 mod triangle;
 
 pub use brute_force::{BruteForce, BruteForceConfig};
@@ -23,3 +25,4 @@ pub use nothing::Nothing;
 pub use occluder::Occluder;
 pub use octree::{Octree, OctreeConfig};
 pub use segment::{NO_TRIANGLE, Segment, Target};
+pub use simd::Width;

@@ -1,6 +1,6 @@
 //! A segment in the local frame, with everything that is computed once per segment.
 
-use glam::{DVec3, Vec3A, Vec4};
+use glam::{DVec3, Vec3A};
 
 use crate::NO_TRIANGLE;
 use crate::frame::Frame;
@@ -8,7 +8,7 @@ use crate::frame::Frame;
 /// Direction components below this are taken as this in the slab tests, so that no reciprocal is
 /// infinite and no test meets 0 · ∞. Over a whole segment the change moves a point by at most
 /// 1e-20, far below the padding of every box (about 4e-6).
-const LEAST_SLOPE: f32 = 1e-20;
+pub(crate) const LEAST_SLOPE: f32 = 1e-20;
 
 /// A segment prepared for the slab tests and the triangle test.
 #[derive(Clone, Copy, Debug)]
@@ -79,24 +79,24 @@ impl LocalSegment {
     #[inline]
     pub(crate) fn narrowed(from: DVec3, to: DVec3, ignore: [u32; 2]) -> Option<Self> {
         let origin = Vec3A::from(from.as_vec3());
-        let direction = Vec3A::from(to.as_vec3()) - origin;
+        Self::of(origin, Vec3A::from(to.as_vec3()) - origin, ignore)
+    }
+
+    /// Prepares a segment from its narrowed start and the difference of its narrowed ends.
+    #[inline]
+    pub(crate) fn of(origin: Vec3A, direction: Vec3A, ignore: [u32; 2]) -> Option<Self> {
         let d = direction.to_array();
         let size = direction.abs().to_array();
-        let z = if size[0] > size[1] {
-            if size[0] > size[2] { 0 } else { 2 }
-        } else if size[1] > size[2] {
-            1
-        } else {
-            2
-        };
+        // The longest axis, of equals the last; sums, because branches would be guesses.
+        let y_or_x = usize::from(size[1] >= size[0]);
+        let z = y_or_x + (2 - y_or_x) * usize::from(size[2] >= size[0].max(size[1]));
         if size[z] == 0.0 {
             return None;
         }
-        const NEXT: [usize; 3] = [1, 2, 0];
-        let (mut x, mut y) = (NEXT[z], NEXT[NEXT[z]]);
-        if d[z] < 0.0 {
-            (x, y) = (y, x); // looking the other way along z mirrors the plane: mirror it back
-        }
+        // The other two in cyclic order; looking the other way along z mirrors the plane, and
+        // taking them the other way round mirrors it back.
+        const OTHERS: [[[usize; 2]; 2]; 3] = [[[1, 2], [2, 1]], [[2, 0], [0, 2]], [[0, 1], [1, 0]]];
+        let [x, y] = OTHERS[z][usize::from(d[z] < 0.0)];
         let least = Vec3A::splat(LEAST_SLOPE).copysign(direction);
         let slope =
             Vec3A::select(direction.abs().cmplt(Vec3A::splat(LEAST_SLOPE)), least, direction);
@@ -115,42 +115,5 @@ impl LocalSegment {
     #[inline]
     pub(crate) fn ignores(&self, triangle: u32) -> bool {
         self.ignore[0] == triangle || self.ignore[1] == triangle
-    }
-}
-
-/// The parts of a [`LocalSegment`] that four-wide box tests read, one copy per lane.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Slabs {
-    pub(crate) origin: [Vec4; 3],
-    pub(crate) inverse: [Vec4; 3],
-    /// Per axis, which of the bounds (0 least, 1 greatest) the segment meets first.
-    pub(crate) near: [usize; 3],
-}
-
-impl Slabs {
-    #[inline]
-    pub(crate) fn of(segment: &LocalSegment) -> Self {
-        Self {
-            origin: segment.origin.map(Vec4::splat),
-            inverse: segment.inverse.map(Vec4::splat),
-            near: segment.inverse.map(|slope| usize::from(slope < 0.0)),
-        }
-    }
-
-    /// Per lane, the parameters between which the segment's line is in the box, cut to [0, limit]:
-    /// the lane's box is met if the first does not exceed the second.
-    ///
-    /// Each product has a relative error below 3 · 2⁻²⁴, which is a shift of the box face of at
-    /// most 2.1 · 3 · 2⁻²⁴ < 2⁻²¹; boxes are padded by more than that (see `BOX_PADDING`), so the
-    /// test never misses a box that the segment meets.
-    #[inline(always)]
-    pub(crate) fn span(&self, bounds: &[[Vec4; 3]; 2], limit: f32) -> (Vec4, Vec4) {
-        let at = |side: usize, axis: usize| {
-            (bounds[side & 1][axis] - self.origin[axis]) * self.inverse[axis]
-        };
-        let [x, y, z] = self.near;
-        let enter = at(x, 0).max(at(y, 1)).max(at(z, 2).max(Vec4::ZERO));
-        let leave = at(x ^ 1, 0).min(at(y ^ 1, 1)).min(at(z ^ 1, 2).min(Vec4::splat(limit)));
-        (enter, leave)
     }
 }

@@ -70,7 +70,29 @@ impl<T: Copy + Sub<Output = T> + Mul<Output = T>> Sheared<T> {
 
 impl Sheared<f32> {
     /// Decides, in f64, a triangle whose f32 edge functions do not rule it out.
+    #[inline]
     pub(crate) fn crossing(&self, segment: &LocalSegment) -> Option<Crossing> {
+        let (depth, whole) = self.depth(segment)?;
+        let t = depth / whole;
+        let front = (whole > 0.0) == (segment.direction[segment.axes.z] > 0.0); // as the sum
+        (t > 0.0 && t < 1.0).then_some(Crossing { t, front })
+    }
+
+    /// Whether there is a crossing; the same decision without a division.
+    ///
+    /// A quotient of f64 numbers rounds to 1 or more only if the first is no less than the second,
+    /// and these are far from where quotients vanish.
+    #[inline(always)]
+    pub(crate) fn crosses(&self, segment: &LocalSegment) -> bool {
+        let Some((depth, whole)) = self.depth(segment) else { return false };
+        let depth = depth * 1.0_f64.copysign(whole);
+        depth > 0.0 && depth < whole.abs()
+    }
+
+    /// The parameter at which the segment's line crosses the triangle, as a fraction; `None` if it
+    /// passes the triangle by.
+    #[inline(always)]
+    fn depth(&self, segment: &LocalSegment) -> Option<(f64, f64)> {
         let wide = Sheared {
             x: self.x.map(f64::from),
             y: self.y.map(f64::from),
@@ -85,7 +107,6 @@ impl Sheared<f32> {
             return None; // the triangle is seen edge-on: its neighbours decide
         }
         let depth = u * wide.z[0] + v * wide.z[1] + w * wide.z[2];
-        let t = depth / (sum * f64::from(segment.direction[segment.axes.z]));
-        (t > 0.0 && t < 1.0).then_some(Crossing { t, front: sum > 0.0 })
+        Some((depth, sum * f64::from(segment.direction[segment.axes.z])))
     }
 }

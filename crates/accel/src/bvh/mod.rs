@@ -1,24 +1,40 @@
-//! Bounding volume hierarchy: four boxes to a node, four triangles to a leaf.
+//! Bounding volume hierarchy: eight boxes to a node, four triangles to a leaf.
 //!
-//! Built by binned SAH (Wald 2007) straight into four-wide nodes; memory is bounded by the number
+//! Built by binned SAH (Wald 2007) straight into eight-wide nodes; memory is bounded by the number
 //! of triangles alone. The default choice for any scene that is not convex.
 
+mod batch;
+mod beam;
 mod build;
+mod chunk;
 mod config;
+mod group;
 mod nearest;
+mod node;
+mod packet;
+mod planes;
+mod segment;
+mod slabs;
 mod split;
 mod stats;
-mod traverse;
 mod validate;
 
+pub use build::Part;
 pub use config::BvhConfig;
 pub use stats::BvhStats;
 
-use glam::{DVec3, Vec4};
+use glam::DVec3;
 
 use crate::block::Block;
 use crate::frame::Frame;
+use crate::local::LocalSegment;
+use crate::simd::Width;
 use crate::triangle::HIT_ERROR;
+use crate::{Occluder, Segment, Target};
+use batch::Batch;
+use build::Tree;
+use node::{LEAF, Node};
+use segment::Blocked;
 
 /// How far each box is grown beyond its triangles, in local units.
 ///
@@ -27,24 +43,6 @@ use crate::triangle::HIT_ERROR;
 /// (see `Slabs::span`), as does rounding the grown corner. Four times [`HIT_ERROR`] is ample and
 /// still far below any visible size.
 pub(crate) const BOX_PADDING: f32 = 4.0 * HIT_ERROR;
-
-/// Children per node.
-const WIDTH: usize = 4;
-
-/// Set in [`Node::children`] when the rest is an index into `blocks` rather than `nodes`.
-const LEAF: u32 = 1 << 31;
-
-/// Marks an unused child slot.
-const NO_CHILD: u32 = u32::MAX;
-
-/// Up to four children with their boxes, one per lane. 128 bytes with its alignment.
-#[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
-struct Node {
-    /// Least and greatest corners, by axis. Unused lanes hold an inside-out box.
-    bounds: [[Vec4; 3]; 2],
-    children: [u32; WIDTH],
-}
 
 /// A bounding volume hierarchy over triangles.
 ///
@@ -65,6 +63,7 @@ pub struct Bvh {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
     depth: usize,
+    width: Width,
 }
 
 impl Bvh {
@@ -76,15 +75,73 @@ impl Bvh {
     /// # Panics
     /// Panics if there are 2³¹ − 1 triangles or more.
     pub fn build(triangles: &[[DVec3; 3]], config: &BvhConfig) -> Self {
+        Self::build_with(triangles, config, |parts, work| parts.iter_mut().for_each(work))
+    }
+
+    /// Builds the hierarchy on several threads: `run` calls the function it is given once for each
+    /// of some independent parts, in any order and on any thread.
+    ///
+    /// The hierarchy is the one that [`Self::build`] builds, whatever `run` does.
+    ///
+    /// # Panics
+    /// Panics if there are 2³¹ − 1 triangles or more.
+    ///
+    /// # Examples
+    /// ```
+    /// use accel::{Bvh, BvhConfig};
+    /// use glam::{DVec3, dvec3};
+    ///
+    /// let row: Vec<[DVec3; 3]> = (0..10_000)
+    ///     .map(|i| [DVec3::ZERO, DVec3::X, DVec3::Y].map(|v| v + dvec3(0.0, 0.0, f64::from(i))))
+    ///     .collect();
+    /// let config = BvhConfig::default();
+    /// let bvh = Bvh::build_with(&row, &config, |parts, work| {
+    ///     std::thread::scope(|scope| {
+    ///         for some in parts.chunks_mut(4) {
+    ///             scope.spawn(move || some.iter_mut().for_each(work));
+    ///         }
+    ///     });
+    /// });
+    /// assert_eq!(bvh.stats(), Bvh::build(&row, &config).stats());
+    /// ```
+    pub fn build_with(
+        triangles: &[[DVec3; 3]],
+        config: &BvhConfig,
+        run: impl Fn(&mut [Part<'_>], &(dyn Fn(&mut Part<'_>) + Sync)),
+    ) -> Self {
         assert!(triangles.len() < LEAF as usize - 1, "one bit of each index marks leaves");
         let (frame, kept) = Frame::of(triangles);
-        let (nodes, blocks, depth) = build::build(&kept, config);
-        Self { frame, nodes, blocks, depth }
+        let Tree { nodes, blocks, depth, .. } = build::build(&kept, config, run);
+        Self { frame, nodes, blocks, depth, width: Width::fastest() }
+    }
+
+    /// Answers in a width instead of the widest that the machine has, or in the widest if that is
+    /// less. No width changes an answer.
+    #[must_use]
+    pub fn with_width(self, width: Width) -> Self {
+        Self { width: width.min(Width::widest()), ..self }
+    }
+
+    /// Returns the width in which questions are answered.
+    pub fn width(&self) -> Width {
+        self.width
     }
 
     /// Returns the longest side of the bounds of the triangles, in scene units: the argument for
     /// [`crate::rounding_band`].
     pub fn extent(&self) -> f64 {
         self.frame.extent()
+    }
+}
+
+impl Occluder for Bvh {
+    fn occluded(&self, segment: &Segment) -> bool {
+        LocalSegment::between(&self.frame, segment.from, segment.to, segment.ignore)
+            .is_some_and(|local| self.width.run(Blocked { bvh: self, segment: &local }))
+    }
+
+    fn occluded_batch(&self, from: DVec3, ignore: u32, targets: &[Target], blocked: &mut [bool]) {
+        assert_eq!(targets.len(), blocked.len(), "one answer per target");
+        self.width.run(Batch { bvh: self, from, ignore, targets, blocked });
     }
 }

@@ -2,10 +2,16 @@
 
 use glam::DVec3;
 
-use super::traverse::STACK;
-use super::{Bvh, LEAF, WIDTH};
+use super::Bvh;
+use super::build::MAX_DEPTH;
+use super::node::{LEAF, WIDTH};
+use super::slabs::Slabs;
 use crate::Hit;
-use crate::local::{LocalSegment, Slabs};
+use crate::lanes::{Kernel, Lanes, Simd};
+use crate::local::LocalSegment;
+
+/// Nodes waiting at any time: each level leaves at most seven behind.
+const STACK: usize = (WIDTH - 1) * MAX_DEPTH + WIDTH;
 
 /// Added to the best parameter so far before it limits the search: narrowing it to f32 must not cut
 /// off a triangle met at the same parameter. Parameters are at most 1, so one f32 epsilon is two
@@ -34,11 +40,27 @@ impl Bvh {
         if self.nodes.is_empty() {
             return None;
         }
-        let slabs = Slabs::of(&segment);
+        self.width.run(Nearest { bvh: self, segment: &segment }).finish(span)
+    }
+}
+
+struct Nearest<'a> {
+    bvh: &'a Bvh,
+    segment: &'a LocalSegment,
+}
+
+impl Kernel for Nearest<'_> {
+    type Output = Hit;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Hit {
+        let Self { bvh, segment } = self;
+        let slabs = Slabs::of(simd, segment);
         let mut best = Hit::NONE;
         let mut limit = 1.0;
         let mut stack = [(0_u32, 0.0_f32); STACK];
         let mut waiting = 1; // the root
+        let mut enters = [0.0; WIDTH];
         while waiting > 0 {
             waiting -= 1;
             let (child, enter) = stack[waiting];
@@ -46,30 +68,31 @@ impl Bvh {
                 continue;
             }
             if child & LEAF != 0 {
-                for (triangle, crossing) in
-                    self.blocks[(child & !LEAF) as usize].crossings(&segment)
+                for (triangle, crossing) in bvh.blocks[(child & !LEAF) as usize].crossings(segment)
                 {
                     best.improve(triangle, &crossing);
                 }
                 limit = (best.t as f32 + LIMIT_SLACK).min(1.0);
                 continue;
             }
-            let node = &self.nodes[child as usize];
-            let (enter, leave) = slabs.span(&node.bounds, limit);
+            let node = &bvh.nodes[child as usize];
+            let (enter, leave) = slabs.span(simd, node, S::F8::splat(simd, limit));
+            let mut met = enter.le(leave);
+            enter.store(&mut enters);
             let first = waiting;
-            for lane in 0..WIDTH {
-                if enter[lane] <= leave[lane] {
-                    // Insertion keeps the nearest on top.
-                    let mut place = waiting;
-                    while place > first && stack[place - 1].1 < enter[lane] {
-                        stack[place] = stack[place - 1];
-                        place -= 1;
-                    }
-                    stack[place] = (node.children[lane], enter[lane]);
-                    waiting += 1;
+            while met != 0 {
+                let lane = met.trailing_zeros() as usize & (WIDTH - 1);
+                met &= met - 1;
+                // Insertion keeps the nearest on top.
+                let mut place = waiting;
+                while place > first && stack[place - 1].1 < enters[lane] {
+                    stack[place] = stack[place - 1];
+                    place -= 1;
                 }
+                stack[place] = (node.children[lane], enters[lane]);
+                waiting += 1;
             }
         }
-        best.finish(span)
+        best
     }
 }

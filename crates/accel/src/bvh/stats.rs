@@ -1,6 +1,7 @@
 //! What a BVH consists of.
 
-use super::{Bvh, Node};
+use super::Bvh;
+use super::node::Node;
 use crate::block::Block;
 
 /// The size and shape of a [`Bvh`].
@@ -9,7 +10,7 @@ use crate::block::Block;
 pub struct BvhStats {
     /// Triangles that can block; those with zero area are left out.
     pub triangles: usize,
-    /// Inner nodes, of four children each at most.
+    /// Inner nodes, of eight children each at most.
     pub nodes: usize,
     /// Leaves, of four triangles each at most.
     pub leaves: usize,

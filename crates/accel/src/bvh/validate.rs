@@ -1,7 +1,8 @@
 //! Checks that a BVH is what its build promises.
 
 use super::build::MAX_DEPTH;
-use super::{BOX_PADDING, Bvh, LEAF, NO_CHILD, WIDTH};
+use super::node::{LEAF, NO_CHILD, WIDTH};
+use super::{BOX_PADDING, Bvh};
 use crate::aabb::Aabb;
 
 impl Bvh {
@@ -62,10 +63,7 @@ impl Bvh {
                 }
                 self.validate_node(target, depth + 1, parents)?
             };
-            let corner = |side: usize| {
-                glam::Vec3A::from_array(node.bounds[side].map(|axis: glam::Vec4| axis[lane]))
-            };
-            let bounds = Aabb { lo: corner(0), hi: corner(1) };
+            let bounds = node.child_bounds(lane);
             // Half the padding, because the padded corner was rounded.
             if !bounds.contains(&below.padded(0.5 * BOX_PADDING)) {
                 return Err(format!("child {lane} of node {index} does not hold its triangles"));

@@ -10,3 +10,4 @@ mod nearest;
 mod support;
 mod validate;
 mod watertight;
+mod widths;

@@ -1,0 +1,66 @@
+//! Whether a segment meets any triangle: depth-first, in no particular order.
+
+use super::Bvh;
+use super::build::MAX_DEPTH;
+use super::node::LEAF;
+use super::slabs::Slabs;
+use crate::lanes::{Kernel, Lanes, Simd};
+use crate::local::LocalSegment;
+
+/// Asks whether a segment meets any triangle.
+pub(super) struct Blocked<'a> {
+    pub(super) bvh: &'a Bvh,
+    pub(super) segment: &'a LocalSegment,
+}
+
+impl Kernel for Blocked<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> bool {
+        blocked(simd, self.bvh, self.segment)
+    }
+}
+
+/// The kernel itself, for other kernels to call.
+#[inline(always)]
+pub(super) fn blocked<S: Simd>(simd: S, bvh: &Bvh, segment: &LocalSegment) -> bool {
+    if bvh.nodes.is_empty() {
+        return false;
+    }
+    let slabs = Slabs::of(simd, segment);
+    let end = S::F8::splat(simd, 1.0);
+    // Nodes with children still to visit, and which.
+    let mut stack = [(0_u32, 0_u32); MAX_DEPTH];
+    let mut depth = 0;
+    let mut current = 0_u32;
+    loop {
+        let node = &bvh.nodes[current as usize];
+        let (enter, leave) = slabs.span(simd, node, end);
+        let mut met = enter.le(leave);
+        let mut parent = current;
+        loop {
+            while met == 0 {
+                if depth == 0 {
+                    return false;
+                }
+                depth -= 1;
+                (parent, met) = stack[depth];
+            }
+            let lane = met.trailing_zeros() as usize;
+            met &= met - 1;
+            let child = bvh.nodes[parent as usize].children[lane & 7];
+            if child & LEAF == 0 {
+                if met != 0 {
+                    stack[depth] = (parent, met);
+                    depth += 1;
+                }
+                current = child;
+                break;
+            }
+            if bvh.blocks[(child & !LEAF) as usize].blocks(segment) {
+                return true;
+            }
+        }
+    }
+}

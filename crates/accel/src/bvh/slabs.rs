@@ -1,0 +1,58 @@
+//! One segment against the eight boxes of a node: the slab test (Kay & Kajiya 1986).
+
+use super::node::Node;
+use crate::lanes::{Lanes, Simd};
+use crate::local::LocalSegment;
+
+/// The parts of a [`LocalSegment`] that the test reads, one copy per lane.
+#[derive(Clone, Copy)]
+pub(super) struct Slabs<S: Simd> {
+    inverse: [S::F8; 3],
+    /// The parameter at which the segment's line has coordinate 0.
+    offset: [S::F8; 3],
+    start: S::F8,
+    /// Per axis, which of the bounds (0 least, 1 greatest) the segment meets first.
+    near: [usize; 3],
+}
+
+impl<S: Simd> Slabs<S> {
+    #[inline(always)]
+    pub(super) fn of(simd: S, segment: &LocalSegment) -> Self {
+        let [ix, iy, iz] = segment.inverse;
+        let [ox, oy, oz] = segment.origin;
+        let splat = S::F8::splat;
+        Self {
+            inverse: [splat(simd, ix), splat(simd, iy), splat(simd, iz)],
+            offset: [splat(simd, -ox * ix), splat(simd, -oy * iy), splat(simd, -oz * iz)],
+            start: splat(simd, 0.0),
+            near: [usize::from(ix < 0.0), usize::from(iy < 0.0), usize::from(iz < 0.0)],
+        }
+    }
+
+    /// Per lane, the parameters between which the segment's line is in the box, cut to [0, limit]:
+    /// the lane's box is met if the first does not exceed the second.
+    ///
+    /// A parameter is b · i − o · i for a face at b, an origin o and a reciprocal direction i. With
+    /// e = 2⁻²⁴, the roundings of i, of the two products and of the difference shift the face by
+    /// e · (|b − o| + |b| + |o| + |b − o|) < 6.2 e < 2⁻²¹ at most; boxes are padded by more than
+    /// that (see `BOX_PADDING`), so the test never misses a box that the segment meets.
+    #[inline(always)]
+    pub(super) fn span(&self, simd: S, node: &Node, limit: S::F8) -> (S::F8, S::F8) {
+        let [x, y, z] = self.near;
+        let enter_x = self.at(simd, node, 0, x);
+        let enter_y = self.at(simd, node, 1, y);
+        let enter_z = self.at(simd, node, 2, z);
+        let leave_x = self.at(simd, node, 0, x ^ 1);
+        let leave_y = self.at(simd, node, 1, y ^ 1);
+        let leave_z = self.at(simd, node, 2, z ^ 1);
+        let enter = enter_x.max(enter_y).max(enter_z.max(self.start));
+        let leave = leave_x.min(leave_y).min(leave_z.min(limit));
+        (enter, leave)
+    }
+
+    #[inline(always)]
+    fn at(&self, simd: S, node: &Node, axis: usize, side: usize) -> S::F8 {
+        let face = S::F8::load(simd, &node.bounds[axis][side & 1]);
+        face.mul_add(self.inverse[axis], self.offset[axis])
+    }
+}

@@ -1,0 +1,203 @@
+//! What a kernel is written over: numbers side by side, whatever the machine.
+//!
+//! A kernel is code over the traits [`Simd`] and [`Lanes`]; `simd.rs` compiles it for every width
+//! and has the types of the wide machines. Here are those that every machine has.
+//!
+//! Everything is `#[inline(always)]`, in the kernels too, because only code that is inlined into a
+//! function for a wider machine is compiled for it. Closures are not, so loops over wide types are
+//! written out.
+
+use glam::Vec4;
+
+/// Code to be compiled for every width.
+pub(crate) trait Kernel {
+    type Output;
+
+    /// Does the work; to be marked `#[inline(always)]`.
+    fn run<S: Simd>(self, simd: S) -> Self::Output;
+}
+
+/// The types of one width. A value is the token that lets them be used.
+pub(crate) trait Simd: Copy {
+    type F8: Lanes<Token = Self>;
+    type F16: Lanes<Token = Self>;
+}
+
+/// `COUNT` numbers treated alike. Comparisons answer with one bit per lane, the first lane lowest.
+pub(crate) trait Lanes: Copy {
+    const COUNT: usize;
+    type Token: Copy;
+
+    fn splat(token: Self::Token, x: f32) -> Self;
+    /// Reads the first `COUNT` numbers.
+    fn load(token: Self::Token, from: &[f32]) -> Self;
+    /// Writes the first `COUNT` numbers.
+    fn store(self, to: &mut [f32]);
+    fn sub(self, other: Self) -> Self;
+    fn mul(self, other: Self) -> Self;
+    fn div(self, other: Self) -> Self;
+    /// `self * factor + term`, rounded once or twice: an error bound allows for two roundings.
+    fn mul_add(self, factor: Self, term: Self) -> Self;
+    fn abs(self) -> Self;
+    /// The size of `self` with the sign of another.
+    fn copysign(self, sign: Self) -> Self;
+    /// The lesser; either if one is NaN.
+    fn min(self, other: Self) -> Self;
+    /// The greater; either if one is NaN.
+    fn max(self, other: Self) -> Self;
+    /// Where `self <= other`; not where one is NaN.
+    fn le(self, other: Self) -> u32;
+    /// Where `self < other`; not where one is NaN.
+    fn lt(self, other: Self) -> u32;
+    /// The least of all lanes, none of which is NaN.
+    fn least(self) -> f32;
+    /// The greatest of all lanes, none of which is NaN.
+    fn greatest(self) -> f32;
+}
+
+/// What every machine has.
+#[derive(Clone, Copy)]
+pub(crate) struct Four;
+
+impl Simd for Four {
+    type F8 = Pair<Vec4>;
+    type F16 = Pair<Pair<Vec4>>;
+}
+
+/// glam chooses SSE2, NEON or plain code when it is compiled.
+impl Lanes for Vec4 {
+    const COUNT: usize = 4;
+    type Token = Four;
+
+    #[inline(always)]
+    fn splat(_: Four, x: f32) -> Self {
+        Self::splat(x)
+    }
+    #[inline(always)]
+    fn load(_: Four, from: &[f32]) -> Self {
+        Self::from_slice(from)
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        self.write_to_slice(to);
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self - other
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self / other
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term // a fused product is a function call where it is not an instruction
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        self.copysign(sign)
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.min(other)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.max(other)
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> u32 {
+        self.cmple(other).bitmask()
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> u32 {
+        self.cmplt(other).bitmask()
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        self.min_element()
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        self.max_element()
+    }
+}
+
+/// Twice as many lanes as the machine treats at once.
+#[derive(Clone, Copy)]
+pub(crate) struct Pair<L>(L, L);
+
+impl<L: Lanes> Lanes for Pair<L> {
+    const COUNT: usize = 2 * L::COUNT;
+    type Token = L::Token;
+
+    #[inline(always)]
+    fn splat(token: L::Token, x: f32) -> Self {
+        Self(L::splat(token, x), L::splat(token, x))
+    }
+    #[inline(always)]
+    fn load(token: L::Token, from: &[f32]) -> Self {
+        Self(L::load(token, from), L::load(token, &from[L::COUNT..]))
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        self.0.store(to);
+        self.1.store(&mut to[L::COUNT..]);
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self(self.0.sub(other.0), self.1.sub(other.1))
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self(self.0.mul(other.0), self.1.mul(other.1))
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self(self.0.div(other.0), self.1.div(other.1))
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        Self(self.0.mul_add(factor.0, term.0), self.1.mul_add(factor.1, term.1))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs(), self.1.abs())
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        Self(self.0.copysign(sign.0), self.1.copysign(sign.1))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(self.0.min(other.0), self.1.min(other.1))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(self.0.max(other.0), self.1.max(other.1))
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> u32 {
+        self.0.le(other.0) | self.1.le(other.1) << L::COUNT
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> u32 {
+        self.0.lt(other.0) | self.1.lt(other.1) << L::COUNT
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        self.0.min(self.1).least()
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        self.0.max(self.1).greatest()
+    }
+}

@@ -1,0 +1,287 @@
+//! Kernels on the instructions of the machine at hand: the only file with `unsafe`.
+//!
+//! [`Width::run`] compiles a kernel once for every width and calls the one that was chosen when the
+//! structure was built, so that a plain build is as fast as one for a given machine. The pattern is
+//! that of the crate `pulp`.
+//!
+//! A value of a wide type can only be made with a token, and a token only by [`Width::run`] after
+//! the machine was found to have the instructions. So to hold one is to be allowed to use them.
+
+#![allow(unsafe_code, reason = "the instructions of a wider machine cannot be called otherwise")]
+
+#[cfg(target_arch = "x86_64")]
+use std::arch::x86_64::*;
+use std::sync::OnceLock;
+
+#[cfg(target_arch = "x86_64")]
+use glam::Vec4;
+
+use crate::lanes::{Four, Kernel};
+#[cfg(target_arch = "x86_64")]
+use crate::lanes::{Lanes, Pair, Simd};
+
+/// How many f32 numbers the machine treats at once. No choice changes an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Width {
+    /// Four: SSE2, NEON, or plain code. Every machine has it.
+    Four,
+    /// Eight: AVX2 with FMA.
+    Eight,
+    /// Sixteen: AVX-512 (F, VL, BW and DQ).
+    Sixteen,
+}
+
+impl Width {
+    /// Every width, from the narrowest.
+    pub const ALL: [Self; 3] = [Self::Four, Self::Eight, Self::Sixteen];
+
+    /// Returns the widest that this machine has.
+    pub fn widest() -> Self {
+        static WIDEST: OnceLock<Width> = OnceLock::new();
+        *WIDEST.get_or_init(|| {
+            #[cfg(target_arch = "x86_64")]
+            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+                let wide = is_x86_feature_detected!("avx512f")
+                    && is_x86_feature_detected!("avx512vl")
+                    && is_x86_feature_detected!("avx512bw")
+                    && is_x86_feature_detected!("avx512dq");
+                return if wide { Self::Sixteen } else { Self::Eight };
+            }
+            Self::Four
+        })
+    }
+
+    /// Returns the width in which questions are answered unless another is chosen.
+    ///
+    /// Sixteen lanes are no faster than eight, where both were measured (Sapphire Rapids): bringing
+    /// a comparison from a mask register costs about what the wider arithmetic saves.
+    pub fn fastest() -> Self {
+        Self::widest().min(Self::Eight)
+    }
+
+    /// Runs a kernel in this width, or in the widest that the machine has if that is less.
+    #[inline]
+    pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
+        #[cfg(target_arch = "x86_64")]
+        match self.min(Self::widest()) {
+            Self::Four => {}
+            // SAFETY: `widest` found AVX2 and FMA.
+            Self::Eight => return unsafe { run_eight(kernel) },
+            // SAFETY: `widest` found AVX2, FMA and the four parts of AVX-512.
+            Self::Sixteen => return unsafe { run_sixteen(kernel) },
+        }
+        kernel.run(Four)
+    }
+}
+
+/// AVX2 and FMA.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy)]
+pub(crate) struct Eight(());
+
+#[cfg(target_arch = "x86_64")]
+impl Simd for Eight {
+    type F8 = M256<Self>;
+    type F16 = Pair<M256<Self>>;
+}
+
+/// AVX-512.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy)]
+pub(crate) struct Sixteen(());
+
+#[cfg(target_arch = "x86_64")]
+impl Simd for Sixteen {
+    type F8 = M256<Self>;
+    type F16 = M512;
+}
+
+/// The tokens that vouch for AVX2 and FMA.
+#[cfg(target_arch = "x86_64")]
+pub(crate) trait HasAvx2: Copy {}
+
+#[cfg(target_arch = "x86_64")]
+impl HasAvx2 for Eight {}
+
+#[cfg(target_arch = "x86_64")]
+impl HasAvx2 for Sixteen {}
+
+/// Eight lanes, made with a token of either wide machine.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy)]
+pub(crate) struct M256<T>(__m256, std::marker::PhantomData<T>);
+
+/// Sixteen lanes.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy)]
+pub(crate) struct M512(__m512);
+
+/// The methods that are one instruction on two registers.
+#[cfg(target_arch = "x86_64")]
+macro_rules! binary {
+    ($make:expr; $($method:ident $instruction:ident),*) => {$(
+        #[inline(always)]
+        fn $method(self, other: Self) -> Self {
+            // SAFETY: a value of this type exists only where the instructions do.
+            $make(unsafe { $instruction(self.0, other.0) })
+        }
+    )*};
+}
+
+#[cfg(target_arch = "x86_64")]
+impl<T: HasAvx2> M256<T> {
+    #[inline(always)]
+    fn new(value: __m256) -> Self {
+        Self(value, std::marker::PhantomData)
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl<T: HasAvx2> Lanes for M256<T> {
+    const COUNT: usize = 8;
+    type Token = T;
+
+    #[inline(always)]
+    fn splat(_: T, x: f32) -> Self {
+        // SAFETY: the token shows that the instructions exist.
+        Self::new(unsafe { _mm256_set1_ps(x) })
+    }
+    #[inline(always)]
+    fn load(_: T, from: &[f32]) -> Self {
+        let from = &from[..8];
+        // SAFETY: the token shows that the instructions exist, the slice that 8 numbers do.
+        Self::new(unsafe { _mm256_loadu_ps(from.as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        let to = &mut to[..8];
+        // SAFETY: a value of this type exists only where the instructions do; `to` has 8 places.
+        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) }
+    }
+    binary!(Self::new; sub _mm256_sub_ps, mul _mm256_mul_ps, div _mm256_div_ps,
+            min _mm256_min_ps, max _mm256_max_ps);
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self::new(unsafe { _mm256_fmadd_ps(self.0, factor.0, term.0) })
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self::new(unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0) })
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        let sign = unsafe { _mm256_and_ps(_mm256_set1_ps(-0.0), sign.0) };
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self::new(unsafe { _mm256_or_ps(self.abs().0, sign) })
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> u32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> u32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        let halves =
+            unsafe { (_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0)) };
+        Vec4::from(halves.0).min(Vec4::from(halves.1)).min_element()
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        let halves =
+            unsafe { (_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0)) };
+        Vec4::from(halves.0).max(Vec4::from(halves.1)).max_element()
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Lanes for M512 {
+    const COUNT: usize = 16;
+    type Token = Sixteen;
+
+    #[inline(always)]
+    fn splat(_: Sixteen, x: f32) -> Self {
+        // SAFETY: the token shows that the instructions exist.
+        Self(unsafe { _mm512_set1_ps(x) })
+    }
+    #[inline(always)]
+    fn load(_: Sixteen, from: &[f32]) -> Self {
+        let from = &from[..16];
+        // SAFETY: the token shows that the instructions exist, the slice that 16 numbers do.
+        Self(unsafe { _mm512_loadu_ps(from.as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, to: &mut [f32]) {
+        let to = &mut to[..16];
+        // SAFETY: a value of this type exists only where the instructions do; `to` has 16 places.
+        unsafe { _mm512_storeu_ps(to.as_mut_ptr(), self.0) }
+    }
+    binary!(Self; sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps,
+            min _mm512_min_ps, max _mm512_max_ps);
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self(unsafe { _mm512_fmadd_ps(self.0, factor.0, term.0) })
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self(unsafe { _mm512_abs_ps(self.0) })
+    }
+    #[inline(always)]
+    fn copysign(self, sign: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        let sign = unsafe { _mm512_and_ps(_mm512_set1_ps(-0.0), sign.0) };
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self(unsafe { _mm512_or_ps(self.abs().0, sign) })
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> u32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_LE_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> u32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        u32::from(unsafe { _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        unsafe { _mm512_reduce_min_ps(self.0) }
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        unsafe { _mm512_reduce_max_ps(self.0) }
+    }
+}
+
+/// Compiles a kernel for AVX2.
+///
+/// # Safety
+/// The machine has the features named.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+unsafe fn run_eight<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run(Eight(()))
+}
+
+/// Compiles a kernel for AVX-512.
+///
+/// # Safety
+/// The machine has the features named.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512bw,avx512dq")]
+unsafe fn run_sixteen<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run(Sixteen(()))
+}
