@@ -34,13 +34,13 @@ pub(crate) struct Axes {
 
 impl LocalSegment {
     /// Prepares the segment between two scene points; `None` if nothing can block it.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn between(frame: &Frame, from: DVec3, to: DVec3, ignore: [u32; 2]) -> Option<Self> {
         Self::from_local(frame, frame.local(from), frame.local(to), ignore)
     }
 
     /// [`Self::between`] for ends already in the local frame, still in f64.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn from_local(
         frame: &Frame,
         from: DVec3,
@@ -76,14 +76,14 @@ impl LocalSegment {
     }
 
     /// Narrows two points that the frame holds; `None` if they become one.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn narrowed(from: DVec3, to: DVec3, ignore: [u32; 2]) -> Option<Self> {
         let origin = Vec3A::from(from.as_vec3());
         Self::of(origin, Vec3A::from(to.as_vec3()) - origin, ignore)
     }
 
     /// Prepares a segment from its narrowed start and the difference of its narrowed ends.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of(origin: Vec3A, direction: Vec3A, ignore: [u32; 2]) -> Option<Self> {
         let d = direction.to_array();
         let size = direction.abs().to_array();

@@ -1,10 +1,10 @@
 //! Kernels on the instructions of the machine at hand: the only file with `unsafe`.
 //!
-//! [`Width::run`] compiles a kernel once for every width and calls the one that was chosen when the
+//! [`Found::run`] compiles a kernel once for every width and calls the one that was chosen when the
 //! structure was built, so that a plain build is as fast as one for a given machine. The pattern is
 //! that of the crate `pulp`.
 //!
-//! A value of a wide type can only be made with a token, and a token only by [`Width::run`] after
+//! A value of a wide type can only be made with a token, and a token only by [`Found::run`] after
 //! the machine was found to have the instructions. So to hold one is to be allowed to use them.
 
 #![allow(unsafe_code, reason = "the instructions of a wider machine cannot be called otherwise")]
@@ -58,17 +58,32 @@ impl Width {
     pub fn fastest() -> Self {
         Self::widest().min(Self::Eight)
     }
+}
 
-    /// Runs a kernel in this width, or in the widest that the machine has if that is less.
+/// A width that the machine was found to have.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found(Width);
+
+impl Found {
+    /// A width, or the widest that the machine has if that is less.
+    pub(crate) fn of(width: Width) -> Self {
+        Self(width.min(Width::widest()))
+    }
+
+    pub(crate) fn width(self) -> Width {
+        self.0
+    }
+
+    /// Runs a kernel in this width.
     #[inline]
     pub(crate) fn run<K: Kernel>(self, kernel: K) -> K::Output {
         #[cfg(target_arch = "x86_64")]
-        match self.min(Self::widest()) {
-            Self::Four => {}
-            // SAFETY: `widest` found AVX2 and FMA.
-            Self::Eight => return unsafe { run_eight(kernel) },
-            // SAFETY: `widest` found AVX2, FMA and the four parts of AVX-512.
-            Self::Sixteen => return unsafe { run_sixteen(kernel) },
+        match self.0 {
+            Width::Four => {}
+            // SAFETY: the machine was found to have AVX2 and FMA.
+            Width::Eight => return unsafe { run_eight(kernel) },
+            // SAFETY: the machine was found to have AVX2, FMA and the four parts of AVX-512.
+            Width::Sixteen => return unsafe { run_sixteen(kernel) },
         }
         kernel.run(Four)
     }

@@ -37,6 +37,9 @@ pub(super) struct Tree {
     root: u32,
 }
 
+/// Says which promise of the caller of [`super::Bvh::build_with`] is broken.
+const LEFT_OUT: &str = "`run` calls the function once for each part";
+
 /// A part of a hierarchy under construction: see [`super::Bvh::build_with`].
 #[derive(Debug)]
 pub struct Part<'a>(State<'a>);
@@ -103,13 +106,14 @@ fn assemble<'a>(parts: Vec<Part>, pieces: impl Iterator<Item = (usize, Part<'a>)
     for (lane, part) in parts.into_iter().enumerate() {
         let (child, bounds) = match part.0 {
             State::Built(below) => tree.append(below, 1),
-            _ => {
+            State::Waiting { .. } | State::Taken => panic!("{LEFT_OUT}"),
+            State::Divided { .. } => {
                 let index = tree.nodes.len();
                 tree.nodes.push(Node::EMPTY);
                 let mut bounds = Aabb::EMPTY;
                 let mut inner = 0;
                 while let Some((_, piece)) = pieces.next_if(|(number, _)| *number == lane) {
-                    let State::Built(below) = piece.0 else { continue };
+                    let State::Built(below) = piece.0 else { panic!("{LEFT_OUT}") };
                     let (child, piece_bounds) = tree.append(below, 2);
                     tree.nodes[index].set_child(inner, child, &piece_bounds);
                     bounds.join(&piece_bounds);
@@ -149,6 +153,9 @@ impl Tree {
 impl Part<'_> {
     /// Builds the part, or divides it if it has more triangles than `grain`.
     fn work(&mut self, grain: usize) {
+        if !matches!(self.0, State::Waiting { .. }) {
+            return; // a second call
+        }
         let State::Waiting { builder, set, depth } = mem::replace(&mut self.0, State::Taken) else {
             return;
         };

@@ -27,8 +27,7 @@ use glam::DVec3;
 
 use crate::block::Block;
 use crate::frame::Frame;
-use crate::local::LocalSegment;
-use crate::simd::Width;
+use crate::simd::{Found, Width};
 use crate::triangle::HIT_ERROR;
 use crate::{Occluder, Segment, Target};
 use batch::Batch;
@@ -63,7 +62,7 @@ pub struct Bvh {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
     depth: usize,
-    width: Width,
+    width: Found,
 }
 
 impl Bvh {
@@ -81,10 +80,10 @@ impl Bvh {
     /// Builds the hierarchy on several threads: `run` calls the function it is given once for each
     /// of some independent parts, in any order and on any thread.
     ///
-    /// The hierarchy is the one that [`Self::build`] builds, whatever `run` does.
+    /// The hierarchy is the one that [`Self::build`] builds, on however many threads.
     ///
     /// # Panics
-    /// Panics if there are 2³¹ − 1 triangles or more.
+    /// Panics if there are 2³¹ − 1 triangles or more, or if `run` leaves a part out.
     ///
     /// # Examples
     /// ```
@@ -112,19 +111,19 @@ impl Bvh {
         assert!(triangles.len() < LEAF as usize - 1, "one bit of each index marks leaves");
         let (frame, kept) = Frame::of(triangles);
         let Tree { nodes, blocks, depth, .. } = build::build(&kept, config, run);
-        Self { frame, nodes, blocks, depth, width: Width::fastest() }
+        Self { frame, nodes, blocks, depth, width: Found::of(Width::fastest()) }
     }
 
     /// Answers in a width instead of the widest that the machine has, or in the widest if that is
     /// less. No width changes an answer.
     #[must_use]
     pub fn with_width(self, width: Width) -> Self {
-        Self { width: width.min(Width::widest()), ..self }
+        Self { width: Found::of(width), ..self }
     }
 
     /// Returns the width in which questions are answered.
     pub fn width(&self) -> Width {
-        self.width
+        self.width.width()
     }
 
     /// Returns the longest side of the bounds of the triangles, in scene units: the argument for
@@ -136,8 +135,7 @@ impl Bvh {
 
 impl Occluder for Bvh {
     fn occluded(&self, segment: &Segment) -> bool {
-        LocalSegment::between(&self.frame, segment.from, segment.to, segment.ignore)
-            .is_some_and(|local| self.width.run(Blocked { bvh: self, segment: &local }))
+        self.width.run(Blocked { bvh: self, segment })
     }
 
     fn occluded_batch(&self, from: DVec3, ignore: u32, targets: &[Target], blocked: &mut [bool]) {

@@ -4,13 +4,14 @@ use super::Bvh;
 use super::build::MAX_DEPTH;
 use super::node::LEAF;
 use super::slabs::Slabs;
+use crate::Segment;
 use crate::lanes::{Kernel, Lanes, Simd};
 use crate::local::LocalSegment;
 
 /// Asks whether a segment meets any triangle.
 pub(super) struct Blocked<'a> {
     pub(super) bvh: &'a Bvh,
-    pub(super) segment: &'a LocalSegment,
+    pub(super) segment: &'a Segment,
 }
 
 impl Kernel for Blocked<'_> {
@@ -18,7 +19,11 @@ impl Kernel for Blocked<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> bool {
-        blocked(simd, self.bvh, self.segment)
+        let Segment { from, to, ignore } = *self.segment;
+        match LocalSegment::between(&self.bvh.frame, from, to, ignore) {
+            Some(segment) => blocked(simd, self.bvh, &segment),
+            None => false,
+        }
     }
 }
 

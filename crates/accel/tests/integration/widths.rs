@@ -213,3 +213,11 @@ fn threads_build_the_same_hierarchy() {
         assert!(format!("{alone:?}") == format!("{together:?}"));
     }
 }
+
+#[test]
+#[should_panic(expected = "once for each part")]
+fn no_part_is_left_out() {
+    Bvh::build_with(&scenes::soup(20_000, 4), &BvhConfig::default(), |parts, work| {
+        parts.iter_mut().skip(1).for_each(work);
+    });
+}
