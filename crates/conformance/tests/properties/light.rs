@@ -190,9 +190,15 @@ fn e1(pieces: &[Piece], a: &[Rgb], b: &[Rgb]) -> f64 {
     worst
 }
 
-/// Rounded otherwise, ties between edges are broken otherwise and shadow rays graze other edges:
-/// what that moves in a coarse mesh.
-const OTHER_MESH: f64 = 3e-2;
+/// Turned by a right angle, no coordinate is rounded otherwise, but sums run in another order: a pair
+/// at the limit between two estimators may be served by the other.
+const TURNED: f64 = 1e-6;
+
+/// Moved, vertices are rounded otherwise, and shadow rays graze other edges. Seen: 1.4e-3.
+const MOVED: f64 = 5e-3;
+
+/// In the two halves of a mirrored scene, other edges of equal length are halved first. Seen: 8.6e-3.
+const OTHER_MESH: f64 = 2e-2;
 
 #[test]
 fn turned_by_a_right_angle_and_moved_the_light_is_the_same() {
@@ -209,11 +215,11 @@ fn turned_by_a_right_angle_and_moved_the_light_is_the_same() {
             let one = light(&pieces, ELEMENTS, config);
             let turned = light(&moved(&pieces, to), ELEMENTS, config);
             let off = e1(&pieces, &one.triangles, &turned.triangles);
-            prop_assert!(off <= OTHER_MESH, "turned: {off:e}");
+            prop_assert!(off <= TURNED, "turned: {off:e}");
             let shift = DVec3::splat(f64::from(steps) * 0.5);
             let shifted = light(&moved(&pieces, |p| p + shift), ELEMENTS, config);
             let off = e1(&pieces, &one.triangles, &shifted.triangles);
-            prop_assert!(off <= OTHER_MESH, "moved: {off:e}");
+            prop_assert!(off <= MOVED, "moved: {off:e}");
             Ok(())
         })
         .unwrap();

@@ -47,6 +47,17 @@ struct Grower<'a> {
 #[derive(PartialEq)]
 struct Length(f64);
 
+impl Length {
+    /// The length, rounded to 24 binary digits: edges that are alike but for rounding stay alike,
+    /// and their vertices decide, in whatever unit and wherever the scene is.
+    fn of(squared: f64) -> Self {
+        const LOST: u32 = f64::MANTISSA_DIGITS - f32::MANTISSA_DIGITS;
+        let half = 1 << (LOST - 1);
+        // Carries into the exponent as rounding up should; infinity stays above all.
+        Self(f64::from_bits((squared.to_bits() + half) >> LOST << LOST))
+    }
+}
+
 impl Eq for Length {}
 
 impl PartialOrd for Length {
@@ -121,7 +132,7 @@ impl<'a> Grower<'a> {
     /// Orders edges by their true length; ties go to the smallest vertices.
     fn rank(&self, edge: Edge) -> (Length, Reverse<Edge>) {
         let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
-        (Length((q - p).length_squared()), Reverse(edge))
+        (Length::of((q - p).length_squared()), Reverse(edge))
     }
 
     fn halve(&mut self, edge: Edge) {
@@ -166,7 +177,7 @@ impl<'a> Grower<'a> {
             self.at_edge
                 .entry(edge)
                 .or_insert_with(|| {
-                    self.queue.push((Length(self.grade.squared_length(p, q)), Reverse(edge)));
+                    self.queue.push((Length::of(self.grade.squared_length(p, q)), Reverse(edge)));
                     Vec::with_capacity(2)
                 })
                 .push(id);

@@ -24,12 +24,14 @@ fn smooth() -> ShootingConfig {
     ShootingConfig { tolerance: 0.0, cell_share: 0.0, ..ShootingConfig::until(1e-13) }
 }
 
-/// What rounding may change in the light of the same mesh: choices among estimators of 1 %
-/// each, and which of two shadow rays grazes an edge.
-const CHOICES: f64 = 2e-3;
+/// What rounding may change in the light of the same mesh, E1 of the means of the triangles: which
+/// of two estimators of 1 % serves a pair at the limit between them, and which of two shadow rays
+/// grazes an edge. Vertices rounded to 1e-10 of the scene have more such pairs than exact ones.
+const CHOICES: f64 = 1e-6;
+const CHOICES_OF_ROUNDED: f64 = 2e-3;
 
-/// Where rounding breaks ties between edges of equal length in another way, the mesh is another
-/// one of the same fineness: E1 of the means of the triangles.
+/// What a mesh of fewer elements changes, where a sheet that stays dark has its share of them: the
+/// largest of the means of the triangles.
 const OTHER_MESH: f64 = 1e-2;
 
 #[test]
@@ -44,7 +46,7 @@ fn offset_1e6() {
         };
         let (smooth, usual) = (apart(smooth()), apart(ShootingConfig::until(1e-10)));
         println!("2^20 away, {elements} elements: {smooth:.1e}, by default {usual:.1e}");
-        assert!(usual <= CHOICES, "{usual:e}");
+        assert!(usual <= 1e-8, "{usual:e}");
         // Form factors that are off by 1e-9 make light that is off by up to 1e-9 / (1 − ρ), and
         // so does each element's share of the visible.
         assert!(smooth <= 1e-8, "{smooth:e}");
@@ -66,7 +68,7 @@ fn offset_1e6() {
     let usual = ShootingConfig::until(1e-10);
     let e1 = light(&back, 100, usual).e1(&light(&odd, 100, usual), &back);
     println!("1e6 away, 100 elements: E1 {e1:.1e}");
-    assert!(e1 <= OTHER_MESH, "{e1:e}");
+    assert!(e1 <= CHOICES_OF_ROUNDED, "{e1:e}");
 }
 
 #[test]
@@ -80,7 +82,7 @@ fn unit_scale() {
         let apart = whole.apart(&light_in(unit, 0, smooth()));
         let e1 = split.e1(&light_in(unit, 300, usual), &screened());
         println!("times {unit:e}: {apart:.1e}; 300 elements: E1 {e1:.1e}");
-        assert!(apart <= 1e-13 && e1 <= OTHER_MESH, "{apart:e} {e1:e}");
+        assert!(apart <= 1e-13 && e1 <= CHOICES, "{apart:e} {e1:e}");
     }
     // Powers of two scale every number exactly.
     for unit in [2f64.powi(-20), 2f64.powi(20), 2f64.powi(-130), 2f64.powi(130)] {
