@@ -52,7 +52,8 @@ pub(crate) fn prepare(scene: &Scene, work: &Work) -> Result<Prepared, Failure> {
     let pool = Pool::new(work.threads)?;
     let clock = Instant::now();
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
-    let bvh = Bvh::build(&triangles, &BvhConfig::default());
+    let config = BvhConfig::default();
+    let bvh = Bvh::build_with(&triangles, &config, |parts, work| pool.for_each(parts, work));
     let (other, occluder_name, occluder_bytes): (Option<Box<dyn Occluder>>, _, _) = match work.accel
     {
         AccelArg::Octree => {
