@@ -220,6 +220,11 @@ impl Builder<'_> {
             };
             parts.extend(halves);
         }
+        // Children are visited in this order: what hides most comes first, single blocks last
+        // (example `mrays`: 1.0 to 1.17 times the segments, columns most).
+        let inner = |set: &Set| set.len() > LANES;
+        let area = |set: &Set| set.bounds.half_area();
+        parts.sort_by(|a, b| inner(b).cmp(&inner(a)).then(area(b).total_cmp(&area(a))));
         parts
     }
 }
