@@ -9,6 +9,7 @@ mod rng;
 mod scenes;
 mod synthetic;
 mod table;
+pub mod techniques;
 mod workload;
 
 pub use contender::{Asking, CONTENDERS, Contender, Structure, Structures};

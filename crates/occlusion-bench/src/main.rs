@@ -5,7 +5,8 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{Parser, Subcommand};
+use occlusion_bench::techniques::{answer_uncounted, compare, count, techniques_markdown};
 use occlusion_bench::{
     CONTENDERS, Contender, EmbreeLibrary, Kind, LIBRARY_VARIABLE, Limits, SCENES, SceneError,
     Structures, csv, markdown, measure, workload,
@@ -13,8 +14,10 @@ use occlusion_bench::{
 
 /// Measures accel's structures, obvhs and Embree on the same segments, on one thread.
 #[derive(Parser)]
-#[command(version)]
+#[command(version, args_conflicts_with_subcommands = true)]
 struct Args {
+    #[command(subcommand)]
+    command: Option<Other>,
     /// Scenes, by name or as paths of .tri files.
     #[arg(long, value_delimiter = ',', default_values_t = SCENES.map(str::to_owned))]
     scenes: Vec<String>,
@@ -44,8 +47,41 @@ struct Args {
     markdown: Option<PathBuf>,
 }
 
+#[derive(Subcommand)]
+enum Other {
+    /// Measures the techniques of an octree with 3D-DDA, each on and off.
+    Techniques(Techniques),
+}
+
+#[derive(clap::Args)]
+struct Techniques {
+    /// Scenes, by name or as paths of .tri files.
+    #[arg(long, value_delimiter = ',', default_values_t = ["room", "hall", "church"].map(str::to_owned))]
+    scenes: Vec<String>,
+    /// Segments, from sources to the vertices that face them.
+    #[arg(long, default_value_t = 50_000)]
+    segments: usize,
+    /// Seconds after which no new round begins, for each scene.
+    #[arg(long, default_value_t = 20.0)]
+    seconds: f64,
+    /// Counts instructions too, with valgrind's callgrind.
+    #[arg(long)]
+    instructions: bool,
+    /// Builds and asks this variant alone, once and without a clock, for a profiler.
+    #[arg(long)]
+    only: Option<String>,
+    /// Writes the tables there, too.
+    #[arg(long)]
+    markdown: Option<PathBuf>,
+}
+
 fn main() -> ExitCode {
-    match run(&Args::parse()) {
+    let args = Args::parse();
+    let result = match &args.command {
+        Some(Other::Techniques(args)) => techniques(args),
+        None => run(&args),
+    };
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
@@ -96,6 +132,43 @@ fn run(args: &Args) -> Result<(), String> {
     }
     write(args.csv.as_deref(), &csv(&all))?;
     write(args.markdown.as_deref(), &markdown(&all))
+}
+
+/// Segments asked under callgrind, which is some fifty times as slow.
+const COUNTED: usize = 10_000;
+
+fn techniques(args: &Techniques) -> Result<(), String> {
+    let limits = Limits { runs: usize::MAX, seconds: args.seconds };
+    let mut all = Vec::new();
+    for scene in &args.scenes {
+        let workload = match workload(scene, args.segments) {
+            Ok(workload) => workload,
+            Err(error @ SceneError::Absent(_)) => {
+                println!("{scene} is skipped: {error}");
+                continue;
+            }
+            Err(error) => return Err(error.to_string()),
+        };
+        if let Some(name) = &args.only {
+            answer_uncounted(name, &workload)?;
+            continue;
+        }
+        let comparison = compare(scene, &workload, &limits);
+        println!("{scene}: {} segments, {} rounds", comparison.segments, comparison.rounds);
+        let counted = if args.instructions {
+            let program = std::env::current_exe().map_err(|error| error.to_string())?;
+            count(&program, scene, &workload, COUNTED)?
+        } else {
+            Vec::new()
+        };
+        all.push((comparison, counted));
+    }
+    if args.only.is_some() {
+        return Ok(());
+    }
+    let text = techniques_markdown(&all);
+    print!("\n{text}");
+    write(args.markdown.as_deref(), &text)
 }
 
 /// The contenders whose names begin with one of `names`.

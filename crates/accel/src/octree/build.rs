@@ -2,18 +2,21 @@
 
 use glam::DVec3;
 
+use super::boxes::Boxes;
 use super::overlap::Candidate;
 use super::{CELL_PADDING, Cell, DEPTH_LIMIT, INNER, Octree, OctreeConfig};
+use crate::aabb::Aabb;
 use crate::block::LANES;
 use crate::frame::{CLIP_MARGIN, Frame, LocalTriangle};
 
-/// The work of stepping through a leaf, in tests of four triangles (bench `occluded`).
+/// The work of stepping through a leaf, in tests of four triangles: found with the binary
+/// `occlusion-bench`; 1 costs memory, 4 is a little slower.
 ///
 /// A ray that crosses a cube crosses each of its eight children with chance 1/4, two on average.
 /// With s for the step and b, b₁ … b₈ for the blocks of four triangles in the cell and its
 /// children, the children are expected to cost 2 s + Σ bᵢ / 4 and the cell costs s + b: a split
 /// pays if Σ bᵢ + 4 s < 4 b. It ends by itself where triangles cannot be parted.
-const STEP_COST: usize = 1;
+const STEP_COST: usize = 2;
 
 /// The reciprocal of the chance that a ray crosses a given child; see [`STEP_COST`].
 const CHILD_ODDS: usize = 4;
@@ -36,7 +39,9 @@ pub(super) fn build(frame: Frame, kept: Vec<LocalTriangle>, config: &OctreeConfi
         half: half as f32,
         depth: 0,
         cells: vec![Cell { first: 0, count: 0 }],
-        references: Vec::new(),
+        boxes: Vec::new(),
+        groups: Vec::new(),
+        blocks: Vec::new(),
         triangles: kept,
     };
     // Breadth first, so that the budget is spent on large cells before small ones.
@@ -53,7 +58,7 @@ pub(super) fn build(frame: Frame, kept: Vec<LocalTriangle>, config: &OctreeConfi
                 .then(|| split(&candidates, &pending, quarter))
                 .filter(|parts| pays(pending.list.len(), parts, budget));
             let Some(parts) = parts else {
-                octree.set_leaf(&pending);
+                octree.set_leaf(&pending, half / f64::from(1_u32 << depth));
                 continue;
             };
             let total: usize = parts.iter().map(Vec::len).sum();
@@ -69,17 +74,37 @@ pub(super) fn build(frame: Frame, kept: Vec<LocalTriangle>, config: &OctreeConfi
         }
         level = next;
     }
-    assert!(octree.cells.len() < INNER as usize && octree.references.len() < INNER as usize);
+    assert!(octree.cells.len() < INNER as usize && octree.blocks.len() < INNER as usize);
+    octree.set_boxes();
     octree.cells.shrink_to_fit();
-    octree.references.shrink_to_fit();
+    octree.groups.shrink_to_fit();
+    octree.blocks.shrink_to_fit();
     octree
 }
 
 impl Octree {
-    fn set_leaf(&mut self, pending: &Pending) {
-        let first = self.references.len() as u32;
-        self.references.extend_from_slice(&pending.list);
-        self.cells[pending.cell] = Cell { first, count: pending.list.len() as u32 };
+    fn set_leaf(&mut self, pending: &Pending, half: f64) {
+        // Faces are exact in f32.
+        let [lo, hi] = [-half, half].map(|h| (pending.centre + h).as_vec3a());
+        self.cells[pending.cell] = self.pack(&pending.list, &Aabb { lo, hi });
+    }
+
+    /// Bounds what each cell holds.
+    fn set_boxes(&mut self) {
+        let mut bounds = vec![Aabb::EMPTY; self.cells.len()];
+        // Children come after their parents.
+        for index in (0..self.cells.len()).rev() {
+            let cell = self.cells[index];
+            let mut joined = Aabb::EMPTY;
+            if cell.count == INNER {
+                bounds[cell.first as usize..][..8].iter().for_each(|child| joined.join(child));
+            } else {
+                self.groups(cell).iter().for_each(|group| joined.join(&group.boxes.hull()));
+            }
+            bounds[index] = joined;
+        }
+        let families = bounds[1..].chunks_exact(8);
+        self.boxes = families.map(|family| [&family[..4], &family[4..]].map(Boxes::of)).collect();
     }
 }
 

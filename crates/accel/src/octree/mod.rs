@@ -1,13 +1,18 @@
-//! Octree: triangle lists in the leaves alone, walked by 3D-DDA.
+//! Octree: triangles in the leaves alone, in blocks of four with a box each.
 //!
-//! The walk visits the leaves along a segment in order (Amanatides & Woo 1987, on leaves of unequal
-//! size) and needs no stack. Large triangles are listed in many leaves; where triangles vary much
-//! in size, the BVH is smaller and usually faster.
+//! Single segments are walked by 3D-DDA: the walk visits the leaves along a segment in order
+//! (Amanatides & Woo 1987, on leaves of unequal size) and needs no stack. Batches go down from the
+//! root in packets. Large triangles are copied to many leaves; where triangles vary much in size,
+//! the BVH is smaller and faster. What each technique is worth: `docs/performance/techniques.md`.
 
+mod batch;
+mod boxes;
 mod build;
 mod config;
 mod dda;
+mod leaf;
 mod overlap;
+mod packet;
 mod stats;
 mod validate;
 
@@ -16,8 +21,11 @@ pub use stats::OctreeStats;
 
 use glam::DVec3;
 
+use crate::block::Block;
 use crate::frame::{Frame, LocalTriangle};
 use crate::triangle::HIT_ERROR;
+use boxes::Boxes;
+use leaf::Group;
 
 /// How far each cell is grown when triangles are sorted into it, in local units.
 ///
@@ -30,12 +38,12 @@ const CELL_PADDING: f64 = 4.0 * HIT_ERROR as f64;
 /// face is an f32 number without rounding.
 const DEPTH_LIMIT: u32 = 16;
 
-/// A cell: eight children in a row, or a run of the triangle lists.
+/// A cell: eight children in a row, or a run of groups of blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Cell {
-    /// The first child, or where the run starts.
+    /// The first child, or the first group.
     first: u32,
-    /// Length of the run; [`INNER`] for a cell with children.
+    /// How many triangles the groups hold; [`INNER`] for a cell with children.
     count: u32,
 }
 
@@ -63,8 +71,12 @@ pub struct Octree {
     depth: u32,
     /// The root first.
     cells: Vec<Cell>,
-    /// The leaf lists: positions in `triangles`, ascending within a leaf.
-    references: Vec<u32>,
+    /// The boxes of each family of eight cells, in their order behind the root.
+    boxes: Vec<[Boxes; 2]>,
+    groups: Vec<Group>,
+    /// The triangles of the leaves, ascending within a leaf.
+    blocks: Vec<Block>,
+    /// Every triangle once, ascending.
     triangles: Vec<LocalTriangle>,
 }
 
@@ -85,9 +97,5 @@ impl Octree {
     /// [`crate::rounding_band`].
     pub fn extent(&self) -> f64 {
         self.frame.extent()
-    }
-
-    fn list(&self, leaf: Cell) -> &[u32] {
-        &self.references[leaf.first as usize..][..leaf.count as usize]
     }
 }

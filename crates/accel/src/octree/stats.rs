@@ -1,6 +1,9 @@
 //! What an octree consists of.
 
+use super::boxes::Boxes;
+use super::leaf::Group;
 use super::{Cell, INNER, Octree};
+use crate::block::Block;
 use crate::frame::LocalTriangle;
 
 /// The size and shape of an [`Octree`].
@@ -35,7 +38,7 @@ impl Octree {
             inner,
             leaves: leaves().count(),
             empty_leaves: leaves().filter(|&count| count == 0).count(),
-            references: self.references.len(),
+            references: leaves().map(|count| count as usize).sum(),
             longest_list: leaves().max().unwrap_or(0) as usize,
             depth: self.depth,
             bytes: self.bytes(),
@@ -45,7 +48,9 @@ impl Octree {
     /// Returns the heap memory held, in bytes.
     pub fn bytes(&self) -> usize {
         self.cells.capacity() * size_of::<Cell>()
-            + self.references.capacity() * size_of::<u32>()
+            + self.boxes.capacity() * size_of::<[Boxes; 2]>()
+            + self.groups.capacity() * size_of::<Group>()
+            + self.blocks.capacity() * size_of::<Block>()
             + self.triangles.capacity() * size_of::<LocalTriangle>()
     }
 }

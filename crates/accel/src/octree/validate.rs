@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::build::child_centre;
 use super::overlap::Candidate;
 use super::{CELL_PADDING, INNER, Octree};
+use crate::block::LANES;
 
 impl Octree {
     /// Checks that every cell has one parent, that lists do not share entries and are ascending,
@@ -18,7 +19,7 @@ impl Octree {
     pub fn validate(&self) -> Result<(), String> {
         let mut parents = vec![0_u32; self.cells.len()];
         parents[0] = 1;
-        let mut listed = 0;
+        let (mut listed, mut blocks) = (0, 0);
         for (index, &cell) in self.cells.iter().enumerate() {
             if cell.count == INNER {
                 for child in cell.first..cell.first + 8 {
@@ -27,21 +28,22 @@ impl Octree {
                 continue;
             }
             listed += cell.count as usize;
-            if self.list(cell).windows(2).any(|pair| pair[0] >= pair[1]) {
+            blocks += (cell.count as usize).div_ceil(LANES);
+            if !self.list(cell).is_sorted_by(|a, b| a < b) {
                 return Err(format!("the list of cell {index} is not ascending"));
             }
         }
         if let Some(cell) = parents.iter().position(|&count| count != 1) {
             return Err(format!("cell {cell} has {} parents, expected 1", parents[cell]));
         }
-        if listed != self.references.len() {
-            let length = self.references.len();
-            return Err(format!("leaves list {listed} triangles, expected {length}"));
+        if blocks != self.blocks.len() {
+            return Err(format!("leaves have {blocks} blocks, expected {}", self.blocks.len()));
         }
         let mut found = 0;
-        for (triangle, local) in self.triangles.iter().enumerate() {
+        for local in &self.triangles {
+            let triangle = local.index;
             let candidate = Candidate::of(&local.vertices);
-            let entries = self.entries(&candidate, triangle as u32)?;
+            let entries = self.entries(&candidate, local.index)?;
             if entries == 0 {
                 return Err(format!("triangle {triangle} is in no leaf, expected one or more"));
             }
@@ -67,7 +69,7 @@ impl Octree {
                     let centre = child_centre(centre, half / 2.0, child);
                     waiting.push((cell.first as usize + child, centre, half / 2.0));
                 }
-            } else if self.list(cell).binary_search(&triangle).is_ok() {
+            } else if self.list(cell).any(|listed| listed == triangle) {
                 entries += 1;
             } else {
                 return Err(format!("leaf {index} does not list triangle {triangle}"));
