@@ -2,7 +2,9 @@
 
 use super::difference;
 use super::level::{Level, Setting};
-use super::statement::{Measured, Parts, Statement, Step, foreseen, mesh_error, stated};
+use super::statement::{
+    Measured, Parts, Statement, Step, foreseen, mesh_error, stated, unbalanced,
+};
 use super::{Asked, Reached, Refined};
 use crate::config::MeshConfig;
 use crate::executor::Executor;
@@ -173,7 +175,7 @@ impl<E: Executor> Ladder<'_, E> {
         let Level { iteration, sampled, probes, .. } = &rung.level;
         let [triangles, points, places] = match rung.level.unseen {
             true => [Measured::UNKNOWN; 3],
-            false => rung.mesh_errors,
+            false => rung.mesh_errors.map(|e| e.at_least(unbalanced(&rung.level.ledger))),
         };
         Some(Statement {
             triangles: stated(*iteration, sampled.triangles, triangles),

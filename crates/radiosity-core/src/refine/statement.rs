@@ -2,6 +2,8 @@
 
 use scene::Rgb;
 
+use crate::energy::Ledger;
+
 /// The parts of one relative error; they add up to [`Parts::total`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parts {
@@ -61,6 +63,10 @@ impl Measured {
 
     fn both(self, f: impl Fn(Rgb) -> Rgb) -> Self {
         Self { e1: f(self.e1), einf: f(self.einf) }
+    }
+
+    pub(super) fn at_least(self, least: Rgb) -> Self {
+        self.both(|e| Rgb([0, 1, 2].map(|c| e[c].max(least[c]))))
     }
 }
 
@@ -132,6 +138,24 @@ fn errors_between(step: Step, order: f64) -> f64 {
     (ratio(step).powf(order) - 1.0).max(0.0)
 }
 
+/// Where the census saw no way out, at most this share of the power escapes.
+const CLOSED: f64 = 1e-9;
+
+/// The error over what the balance shows of it, which is only the net of what is too much in one
+/// place and too little in another: 1.0 to 1.7 in corridors with lamps just below the ceiling.
+const GROSS: f64 = 2.0;
+
+/// The least that the mesh's error can be where light has no way out: what a mesh receives more or
+/// less than was shot is wrong, whatever other meshes say. Meshes that are all too coarse for what
+/// lamps light close by agree on a wrong answer, but not with the balance.
+pub(super) fn unbalanced(ledger: &Ledger) -> Rgb {
+    Rgb([0, 1, 2].map(|c| {
+        let (emitted, defect) = (ledger.emitted[c], ledger.form_factor_defect[c]);
+        let closed = (ledger.escaped[c] - defect).abs() <= CLOSED * emitted;
+        if closed && emitted > 0.0 { GROSS * (defect / emitted).abs() } else { 0.0 }
+    }))
+}
+
 /// Puts three parts together, each measure in its worst channel.
 pub(super) fn stated(iteration: Measured, form_factor: Measured, mesh: Measured) -> Stated {
     let worst = |i: Rgb, f: Rgb, m: Rgb| {
@@ -186,6 +210,20 @@ mod tests {
             (step(e(100.) - e(400.), 100, 400), step(e(400.) - e(1600.), 400, 1600));
         let found = mesh_error(Some(early), late);
         assert!(found.e1[0] / SAFETY > 1.5 * e(1600.), "{found:?}");
+    }
+
+    #[test]
+    fn a_closed_scene_out_of_balance_is_at_least_that_wrong() {
+        let defect = Rgb::new(-0.04, 0.02, 0.0);
+        let closed = Ledger {
+            emitted: Rgb::new(1.0, 2.0, 0.0),
+            escaped: defect,
+            form_factor_defect: defect,
+            ..Ledger::default()
+        };
+        assert_eq!(unbalanced(&closed), Rgb::new(0.04 * GROSS, 0.01 * GROSS, 0.0));
+        let open = Ledger { escaped: Rgb::new(0.3, 0.7, 0.0), ..closed };
+        assert_eq!(unbalanced(&open), Rgb::ZERO);
     }
 
     #[test]
