@@ -74,15 +74,21 @@ impl Block {
     /// Whether a triangle that `segment` does not ignore crosses it.
     #[inline(always)]
     pub(crate) fn blocks(&self, segment: &LocalSegment) -> bool {
+        self.blocking(segment).is_some()
+    }
+
+    /// The lane of a triangle that `segment` does not ignore and that crosses it.
+    #[inline(always)]
+    pub(crate) fn blocking(&self, segment: &LocalSegment) -> Option<usize> {
         let (sheared, mut candidates) = self.sieve(segment);
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize & (LANES - 1);
             candidates &= candidates - 1;
             if !segment.ignores(self.indices[lane]) && sheared.lane(lane).crosses(segment) {
-                return true;
+                return Some(lane);
             }
         }
-        false
+        None
     }
 
     /// The triangles as the segment sees them, and those that f32 does not rule out.

@@ -8,6 +8,9 @@
 
 use glam::DVec3;
 
+use crate::Target;
+use crate::lanes::Simd;
+
 /// The width of the rounding band in f32 units in the last place of the scene's extent.
 ///
 /// In the local frame (extent in [1, 2]) with u = 2⁻²³: narrowing moves a vertex or an end by at
@@ -106,31 +109,11 @@ impl Frame {
         local.abs().cmple(self.half + CLIP_MARGIN).all()
     }
 
-    /// Narrows the local positions of some points, by axis; returns which of them the frame holds,
-    /// one bit each. As [`Self::local`] and [`Self::holds`], in loops that compilers make wide.
+    /// Narrows the local positions of sixteen targets, by axis, and says which of them the frame
+    /// holds, one bit each: [`Self::local`] and [`Self::holds`] side by side.
     #[inline(always)]
-    pub(crate) fn narrow<const N: usize>(
-        &self,
-        points: [&DVec3; N],
-        narrowed: &mut [[f32; N]; 3],
-    ) -> u32 {
-        let limit = self.half + CLIP_MARGIN;
-        let mut inside = [true; N];
-        for axis in 0..3 {
-            let mut local = [0.0; N];
-            for i in 0..N {
-                local[i] = (points[i][axis] - self.centre[axis]) * self.scale;
-            }
-            for i in 0..N {
-                inside[i] &= local[i].abs() <= limit[axis]; // not so for NaN
-                narrowed[axis][i] = local[i] as f32;
-            }
-        }
-        let mut held = 0;
-        for (i, inside) in inside.into_iter().enumerate() {
-            held |= u32::from(inside) << i;
-        }
-        held
+    pub(crate) fn narrow<S: Simd>(&self, simd: S, targets: &[Target; 16]) -> ([S::F16; 3], u32) {
+        simd.narrow(targets, self.centre, self.scale, self.half + CLIP_MARGIN)
     }
 
     /// The part of [t0, t1] in which `from + t * direction` is within the margin around the bounds

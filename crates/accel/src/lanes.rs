@@ -7,7 +7,9 @@
 //! function for a wider machine is compiled for it. Closures are not, so loops over wide types are
 //! written out.
 
-use glam::Vec4;
+use glam::{DVec3, Vec4};
+
+use crate::Target;
 
 /// Code to be compiled for every width.
 pub(crate) trait Kernel {
@@ -21,6 +23,16 @@ pub(crate) trait Kernel {
 pub(crate) trait Simd: Copy {
     type F8: Lanes<Token = Self>;
     type F16: Lanes<Token = Self>;
+
+    /// Narrows (p − centre) · scale for the points of sixteen targets, by axis, and says for which of them it is
+    /// within ± limit along every axis, one bit each; not where a coordinate is NaN.
+    fn narrow(
+        self,
+        targets: &[Target; 16],
+        centre: DVec3,
+        scale: f64,
+        limit: DVec3,
+    ) -> ([Self::F16; 3], u32);
 }
 
 /// `COUNT` numbers treated alike. Comparisons answer with one bit per lane, the first lane lowest.
@@ -62,6 +74,25 @@ pub(crate) struct Four;
 impl Simd for Four {
     type F8 = Pair<Vec4>;
     type F16 = Pair<Pair<Vec4>>;
+
+    #[inline(always)]
+    fn narrow(
+        self,
+        targets: &[Target; 16],
+        centre: DVec3,
+        scale: f64,
+        limit: DVec3,
+    ) -> ([Self::F16; 3], u32) {
+        let (mut rows, mut inside) = ([[0.0; 16]; 3], 0);
+        for (i, target) in targets.iter().enumerate() {
+            let local = (target.point - centre) * scale;
+            inside |= u32::from(local.abs().cmple(limit).all()) << i;
+            for axis in 0..3 {
+                rows[axis][i] = local[axis] as f32;
+            }
+        }
+        (rows.map(|row| Self::F16::load(self, &row)), inside)
+    }
 }
 
 /// glam chooses SSE2, NEON or plain code when it is compiled.
@@ -133,7 +164,7 @@ impl Lanes for Vec4 {
 
 /// Twice as many lanes as the machine treats at once.
 #[derive(Clone, Copy)]
-pub(crate) struct Pair<L>(L, L);
+pub(crate) struct Pair<L>(pub(crate) L, pub(crate) L);
 
 impl<L: Lanes> Lanes for Pair<L> {
     const COUNT: usize = 2 * L::COUNT;

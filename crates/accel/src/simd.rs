@@ -14,8 +14,10 @@ use std::arch::x86_64::*;
 use std::sync::OnceLock;
 
 #[cfg(target_arch = "x86_64")]
-use glam::Vec4;
+use glam::{DVec3, Vec4};
 
+#[cfg(target_arch = "x86_64")]
+use crate::Target;
 use crate::lanes::{Four, Kernel};
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{Lanes, Pair, Simd};
@@ -25,7 +27,7 @@ use crate::lanes::{Lanes, Pair, Simd};
 pub enum Width {
     /// Four: SSE2, NEON, or plain code. Every machine has it.
     Four,
-    /// Eight: AVX2 with FMA.
+    /// Eight: AVX2 with FMA, and counts of bits (BMI1, POPCNT).
     Eight,
     /// Sixteen: AVX-512 (F, VL, BW and DQ).
     Sixteen,
@@ -40,7 +42,11 @@ impl Width {
         static WIDEST: OnceLock<Width> = OnceLock::new();
         *WIDEST.get_or_init(|| {
             #[cfg(target_arch = "x86_64")]
-            if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            if is_x86_feature_detected!("avx2")
+                && is_x86_feature_detected!("fma")
+                && is_x86_feature_detected!("bmi1")
+                && is_x86_feature_detected!("popcnt")
+            {
                 let wide = is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512vl")
                     && is_x86_feature_detected!("avx512bw")
@@ -80,16 +86,16 @@ impl Found {
         #[cfg(target_arch = "x86_64")]
         match self.0 {
             Width::Four => {}
-            // SAFETY: the machine was found to have AVX2 and FMA.
+            // SAFETY: the machine was found to have what `run_eight` asks for.
             Width::Eight => return unsafe { run_eight(kernel) },
-            // SAFETY: the machine was found to have AVX2, FMA and the four parts of AVX-512.
+            // SAFETY: the machine was found to have what `run_sixteen` asks for.
             Width::Sixteen => return unsafe { run_sixteen(kernel) },
         }
         kernel.run(Four)
     }
 }
 
-/// AVX2 and FMA.
+/// AVX2, FMA, BMI1 and POPCNT.
 #[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy)]
 pub(crate) struct Eight(());
@@ -98,6 +104,19 @@ pub(crate) struct Eight(());
 impl Simd for Eight {
     type F8 = M256<Self>;
     type F16 = Pair<M256<Self>>;
+
+    #[inline(always)]
+    fn narrow(
+        self,
+        targets: &[Target; 16],
+        centre: DVec3,
+        scale: f64,
+        limit: DVec3,
+    ) -> ([Self::F16; 3], u32) {
+        // SAFETY: the token shows that the instructions exist.
+        let (rows, inside) = unsafe { narrow_eights(targets, centre, scale, limit) };
+        (rows.map(|[lo, hi]| Pair(M256::new(lo), M256::new(hi))), inside)
+    }
 }
 
 /// AVX-512.
@@ -109,6 +128,25 @@ pub(crate) struct Sixteen(());
 impl Simd for Sixteen {
     type F8 = M256<Self>;
     type F16 = M512;
+
+    #[inline(always)]
+    fn narrow(
+        self,
+        targets: &[Target; 16],
+        centre: DVec3,
+        scale: f64,
+        limit: DVec3,
+    ) -> ([Self::F16; 3], u32) {
+        // SAFETY: the token shows that the instructions exist.
+        let (rows, inside) = unsafe { narrow_eights(targets, centre, scale, limit) };
+        // SAFETY: the token shows that the instructions exist.
+        (
+            rows.map(|[lo, hi]| {
+                M512(unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(lo), hi) })
+            }),
+            inside,
+        )
+    }
 }
 
 /// The tokens that vouch for AVX2 and FMA.
@@ -281,12 +319,55 @@ impl Lanes for M512 {
     }
 }
 
+/// [`Simd::narrow`], four f64 at a time; by axis, the first eight and the last.
+///
+/// # Safety
+/// The machine has AVX.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+unsafe fn narrow_eights(
+    targets: &[Target; 16],
+    centre: DVec3,
+    scale: f64,
+    limit: DVec3,
+) -> ([[__m256; 2]; 3], u32) {
+    // SAFETY: the machine has AVX; two of a point's three coordinates are read.
+    unsafe {
+        let (centre, limit) = (centre.to_array(), limit.to_array());
+        let mut rows = [[_mm_setzero_ps(); 4]; 3];
+        let mut inside = 0;
+        let mut four = 0;
+        while four < 4 {
+            let [p, q, r, s] = [0, 1, 2, 3].map(|i| &targets[4 * four + i].point);
+            let [a, b, c, d] = [p, q, r, s].map(|point| _mm_loadu_pd(point.as_ref().as_ptr()));
+            let (ac, bd) = (_mm256_set_m128d(c, a), _mm256_set_m128d(d, b));
+            let z = _mm256_setr_pd(p.z, q.z, r.z, s.z);
+            let axes = [_mm256_unpacklo_pd(ac, bd), _mm256_unpackhi_pd(ac, bd), z];
+            let mut held = 0b1111;
+            let mut axis = 0;
+            while axis < 3 {
+                let moved = _mm256_sub_pd(axes[axis], _mm256_set1_pd(centre[axis]));
+                let local = _mm256_mul_pd(moved, _mm256_set1_pd(scale));
+                let size = _mm256_andnot_pd(_mm256_set1_pd(-0.0), local);
+                let within = _mm256_cmp_pd::<_CMP_LE_OQ>(size, _mm256_set1_pd(limit[axis]));
+                held &= _mm256_movemask_pd(within);
+                rows[axis][four] = _mm256_cvtpd_ps(local);
+                axis += 1;
+            }
+            inside |= (held as u32) << (4 * four);
+            four += 1;
+        }
+        let eights = |[a, b, c, d]: [__m128; 4]| [_mm256_set_m128(b, a), _mm256_set_m128(d, c)];
+        ([eights(rows[0]), eights(rows[1]), eights(rows[2])], inside)
+    }
+}
+
 /// Compiles a kernel for AVX2.
 ///
 /// # Safety
 /// The machine has the features named.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
+#[target_feature(enable = "avx2,fma,bmi1,popcnt")]
 unsafe fn run_eight<K: Kernel>(kernel: K) -> K::Output {
     kernel.run(Eight(()))
 }
@@ -296,7 +377,7 @@ unsafe fn run_eight<K: Kernel>(kernel: K) -> K::Output {
 /// # Safety
 /// The machine has the features named.
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512bw,avx512dq")]
+#[target_feature(enable = "avx2,fma,bmi1,popcnt,avx512f,avx512vl,avx512bw,avx512dq")]
 unsafe fn run_sixteen<K: Kernel>(kernel: K) -> K::Output {
     kernel.run(Sixteen(()))
 }

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::Bvh;
+use super::build::MAX_DEPTH;
 use super::chunk::{CHUNK, Chunk, Sixteen};
 use super::group::{GROUP, Start};
-use super::packet::Packet;
+use super::packet::{PACKET, Packet};
 use super::planes::Planes;
 use super::segment::blocked;
 use crate::Target;
@@ -40,14 +41,11 @@ impl Kernel for Batch<'_> {
         let mut shooter = Shooter::new(simd, bvh, from.as_vec3().to_array(), ignore);
         let mut chunk = Chunk::new(targets.len());
         for (targets, blocked) in targets.chunks(CHUNK).zip(blocked.chunks_mut(CHUNK)) {
-            blocked.fill(false);
             chunk.fill(simd, &bvh.frame, shooter.origin, targets, |place| {
                 blocked[place] = alone(simd, bvh, from, ignore, &targets[place]);
             });
-            let mut first = 0;
-            while first < chunk.packets() {
-                shooter.group(&chunk, first, blocked);
-                first += GROUP;
+            for group in chunk.packets().chunks(GROUP) {
+                shooter.group(group, blocked);
             }
         }
     }
@@ -70,36 +68,52 @@ pub(super) struct Shooter<'a, S: Simd> {
     pub(super) bvh: &'a Bvh,
     pub(super) origin: [f32; 3],
     pub(super) ignore: u32,
-    /// The block in which a triangle blocked a segment last: neighbours tend to hide behind the
-    /// same triangles.
-    pub(super) last: Option<u32>,
-    /// Planes of the blocks met lately, each in the place of its number's remainder.
-    kept: [Planes; KEPT],
+    /// The triangle that blocked a segment last, by block and lane: neighbours tend to hide behind
+    /// the same triangles.
+    pub(super) last: Option<(u32, usize)>,
+    /// Planes of the blocks met lately.
+    kept: Vec<Planes>,
+    /// For each remainder of a block's number, which block's planes are kept, and where.
     kept_for: [u32; KEPT],
+    kept_at: [u8; KEPT],
+    /// Nodes with children still to visit, and which.
+    pub(super) stack: [(u32, u32); MAX_DEPTH + 1],
 }
 
 impl<'a, S: Simd> Shooter<'a, S> {
     #[inline(always)]
     fn new(simd: S, bvh: &'a Bvh, origin: [f32; 3], ignore: u32) -> Self {
-        let (kept, kept_for) = ([Planes::NONE; KEPT], [u32::MAX; KEPT]);
-        Self { simd, bvh, origin, ignore, last: None, kept, kept_for }
+        Self {
+            simd,
+            bvh,
+            origin,
+            ignore,
+            last: None,
+            kept: Vec::with_capacity(KEPT),
+            kept_for: [u32::MAX; KEPT],
+            kept_at: [u8::MAX; KEPT],
+            stack: [(0, 0); MAX_DEPTH + 1],
+        }
     }
 
-    /// Answers a chunk's packets from `first` on, as many as make a group.
+    /// Answers a group of packets.
     #[inline(always)]
-    fn group(&mut self, chunk: &Chunk, first: usize, blocked: &mut [bool]) {
-        let mut packets = [Sixteen::EMPTY; GROUP];
-        let packets = &mut packets[..GROUP.min(chunk.packets() - first)];
-        for (i, packet) in packets.iter_mut().enumerate() {
-            chunk.packet(first + i, packet);
-        }
+    fn group(&mut self, packets: &[Sixteen], blocked: &mut [bool]) {
         let start = Start::of(self.simd, self.bvh, self.origin, packets);
         for sixteen in packets {
-            let mut answers = Packet::new(self.simd, self.origin, sixteen).answer(self, &start);
-            while answers != 0 {
-                let lane = answers.trailing_zeros() as usize % sixteen.places.len();
-                answers &= answers - 1;
-                blocked[sixteen.places[lane] as usize] = true;
+            let mut packet = Packet::new(self.simd, sixteen);
+            let answers = packet.answer(self, &start);
+            let first = sixteen.places[0] as usize;
+            if sixteen.places == std::array::from_fn(|i| (first + i) as u16)
+                && let Some(blocked) = blocked.get_mut(first..first + PACKET)
+            {
+                for lane in 0..PACKET {
+                    blocked[lane] = answers >> lane & 1 == 1;
+                }
+                continue;
+            }
+            for (lane, &place) in sixteen.places[..sixteen.len].iter().enumerate() {
+                blocked[place as usize] = answers >> lane & 1 == 1;
             }
         }
     }
@@ -110,8 +124,15 @@ impl<'a, S: Simd> Shooter<'a, S> {
         let place = block as usize % KEPT;
         if self.kept_for[place] != block {
             self.kept_for[place] = block;
-            self.kept[place] = Planes::of(&self.bvh.blocks[block as usize], self.origin);
+            let planes = Planes::of(&self.bvh.blocks[block as usize], self.origin);
+            let used = self.kept_at[place] as usize;
+            if used < self.kept.len() {
+                self.kept[used] = planes;
+            } else {
+                self.kept_at[place] = self.kept.len() as u8;
+                self.kept.push(planes);
+            }
         }
-        &self.kept[place]
+        &self.kept[self.kept_at[place] as usize]
     }
 }

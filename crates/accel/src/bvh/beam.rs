@@ -179,7 +179,7 @@ impl<S: Simd> Plane<S> {
             base_side: usize::from(rising == upper),
             slope: splat(simd, sign * slope),
             constant: splat(simd, sign * constant),
-            sign: splat(simd, sign),
+            sign: splat(simd, -sign),
         }
     }
 
@@ -196,6 +196,6 @@ impl<S: Simd> Plane<S> {
     fn room(&self, simd: S, node: &Node) -> S::F8 {
         let base = S::F8::load(simd, &node.bounds[self.base][self.base_side & 1]);
         let along = S::F8::load(simd, &node.bounds[self.along][self.side & 1]);
-        base.mul_add(self.slope, self.constant).sub(along.mul(self.sign))
+        along.mul_add(self.sign, base.mul_add(self.slope, self.constant))
     }
 }

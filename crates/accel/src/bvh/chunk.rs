@@ -22,27 +22,32 @@ const LEAST_LENGTH: f32 = 1.0 / (1_u64 << 60) as f32;
 /// it: farther off than a packet is wide when packets share out the cube evenly (example `mrays`).
 const JUMPS: usize = 16;
 
-/// Up to [`CHUNK`] segments from one origin.
+/// One packet in this many shows whether the order is poor.
+const SAMPLE: usize = 4;
+
+/// Up to [`CHUNK`] segments from one origin, in packets.
 pub(super) struct Chunk {
-    /// Differences of the narrowed ends, by axis.
-    directions: [Vec<f32>; 3],
-    ignore: Vec<u32>,
-    /// Which target each is.
-    places: Vec<u16>,
-    keys: Vec<u32>,
-    order: Vec<u16>,
+    /// All but the last are full.
+    packets: Vec<Sixteen>,
+    /// The segments in their places before they are sorted.
+    unsorted: Vec<Sixteen>,
+    /// Where each segment belongs.
+    keys: Vec<[u32; PACKET]>,
 }
 
-/// Sixteen segments of a chunk. Where there are fewer, the last is repeated.
+/// Sixteen segments. Where there are fewer, the last is repeated.
+#[derive(Clone, Copy)]
 pub(super) struct Sixteen {
+    /// Differences of the narrowed ends, by axis.
     pub(super) directions: [[f32; PACKET]; 3],
     pub(super) ignore: [u32; PACKET],
+    /// Which target of the chunk each is.
     pub(super) places: [u16; PACKET],
     pub(super) len: usize,
 }
 
 impl Sixteen {
-    pub(super) const EMPTY: Self = Self {
+    const EMPTY: Self = Self {
         directions: [[0.0; PACKET]; 3],
         ignore: [NO_TRIANGLE; PACKET],
         places: [0; PACKET],
@@ -54,19 +59,46 @@ impl Sixteen {
         let [x, y, z] = &self.directions;
         Vec3A::new(x[lane], y[lane], z[lane])
     }
+
+    /// The segments that ignore a triangle, one bit each.
+    #[inline(always)]
+    pub(super) fn ignoring(&self, triangle: u32) -> u32 {
+        let mut bits = [0_u32; PACKET];
+        for lane in 0..PACKET {
+            bits[lane] = u32::from(self.ignore[lane] == triangle) << lane;
+        }
+        bits.into_iter().fold(0, |all, bit| all | bit)
+    }
+
+    #[inline(always)]
+    fn copy(&mut self, lane: usize, from: &Self, from_lane: usize) {
+        for axis in 0..3 {
+            self.directions[axis][lane] = from.directions[axis][from_lane];
+        }
+        self.ignore[lane] = from.ignore[from_lane];
+        self.places[lane] = from.places[from_lane];
+    }
+
+    /// Repeats the last segment in the lanes that are left.
+    fn fill_up(&mut self) {
+        let last = *self;
+        for lane in self.len..PACKET {
+            self.copy(lane, &last, self.len - 1);
+        }
+    }
 }
 
 impl Chunk {
     /// Makes room for as many as a batch of `targets` needs.
     pub(super) fn new(targets: usize) -> Self {
-        let room = targets.min(CHUNK);
-        Self {
-            directions: [(); 3].map(|()| Vec::with_capacity(room)),
-            ignore: Vec::with_capacity(room),
-            places: Vec::with_capacity(room),
-            keys: Vec::with_capacity(room),
-            order: Vec::with_capacity(room),
-        }
+        let room = targets.min(CHUNK).div_ceil(PACKET);
+        Self { packets: Vec::with_capacity(room), unsorted: Vec::new(), keys: Vec::new() }
+    }
+
+    /// The segments taken in last.
+    #[inline(always)]
+    pub(super) fn packets(&self) -> &[Sixteen] {
+        &self.packets
     }
 
     /// Takes in up to [`CHUNK`] targets; calls `alone` for those that no packet can take.
@@ -79,119 +111,103 @@ impl Chunk {
         targets: &[Target],
         mut alone: impl FnMut(usize),
     ) {
-        self.directions.iter_mut().for_each(Vec::clear);
-        self.ignore.clear();
-        self.places.clear();
-        for (i, targets) in targets.chunks(PACKET).enumerate() {
-            let mut points = [&targets[0].point; PACKET];
-            for (point, target) in points.iter_mut().zip(targets) {
-                *point = &target.point;
-            }
-            let mut rows = [[0.0; PACKET]; 3];
-            let mut regular = frame.narrow(points, &mut rows);
+        self.packets.clear();
+        let mut full = true;
+        for (i, some) in targets.chunks(PACKET).enumerate() {
+            let mut padded = [some[some.len() - 1]; PACKET];
+            let targets: &[Target; PACKET] = some.try_into().unwrap_or_else(|_| {
+                padded[..some.len()].copy_from_slice(some);
+                &padded
+            });
+            let mut sixteen = Sixteen { len: some.len(), ..Sixteen::EMPTY };
+            let (ends, mut regular) = frame.narrow(simd, targets);
             let mut size = S::F16::splat(simd, 0.0);
             let mut axis = 0;
             while axis < 3 {
-                let origin = S::F16::splat(simd, origin[axis]);
-                let direction = S::F16::load(simd, &rows[axis]).sub(origin);
-                direction.store(&mut rows[axis]);
+                let direction = ends[axis].sub(S::F16::splat(simd, origin[axis]));
+                direction.store(&mut sixteen.directions[axis]);
                 size = size.max(direction.abs());
                 axis += 1;
             }
             regular &= S::F16::splat(simd, LEAST_LENGTH).le(size);
-            let all = 0xffff >> (PACKET - targets.len());
-            if regular & all == all {
-                for (all, row) in self.directions.iter_mut().zip(&rows) {
-                    all.extend_from_slice(&row[..targets.len()]);
-                }
-                self.ignore.extend(targets.iter().map(|target| target.ignore));
-                let first = (i * PACKET) as u16;
-                self.places.extend(first..first + targets.len() as u16);
+            let first = (i * PACKET) as u16;
+            for lane in 0..PACKET {
+                sixteen.ignore[lane] = targets[lane].ignore;
+                sixteen.places[lane] = first + lane as u16;
+            }
+            if full && regular == 0xffff {
+                self.packets.push(sixteen);
                 continue;
             }
-            for (lane, target) in targets.iter().enumerate() {
-                let place = i * PACKET + lane;
-                if regular >> lane & 1 == 0 {
-                    alone(place);
-                    continue;
+            full = false;
+            for lane in 0..some.len() {
+                if regular >> lane & 1 == 1 {
+                    self.push(&sixteen, lane);
+                } else {
+                    alone(i * PACKET + lane);
                 }
-                for (all, row) in self.directions.iter_mut().zip(&rows) {
-                    all.push(row[lane]);
-                }
-                self.ignore.push(target.ignore);
-                self.places.push(place as u16);
             }
+        }
+        if let Some(last) = self.packets.last_mut() {
+            last.fill_up();
         }
         self.sort();
     }
 
-    /// How many packets there are.
-    #[inline(always)]
-    pub(super) fn packets(&self) -> usize {
-        self.places.len().div_ceil(PACKET)
-    }
-
-    /// Gathers a packet.
-    #[inline(always)]
-    pub(super) fn packet(&self, index: usize, packet: &mut Sixteen) {
-        let first = index * PACKET;
-        let len = self.places.len();
-        packet.len = PACKET.min(len - first);
-        if self.order.is_empty() && packet.len == PACKET {
-            for axis in 0..3 {
-                packet.directions[axis].copy_from_slice(&self.directions[axis][first..][..PACKET]);
-            }
-            packet.ignore.copy_from_slice(&self.ignore[first..][..PACKET]);
-            packet.places.copy_from_slice(&self.places[first..][..PACKET]);
-            return;
+    /// Adds a segment to the last packet.
+    fn push(&mut self, from: &Sixteen, from_lane: usize) {
+        if self.packets.last().is_none_or(|last| last.len == PACKET) {
+            self.packets.push(Sixteen::EMPTY);
         }
-        for lane in 0..PACKET {
-            let at = (first + lane).min(len - 1);
-            let from = self.order.get(at).map_or(at, |&from| from as usize);
-            for axis in 0..3 {
-                packet.directions[axis][lane] = self.directions[axis][from];
-            }
-            packet.ignore[lane] = self.ignore[from];
-            packet.places[lane] = self.places[from];
+        if let Some(last) = self.packets.last_mut() {
+            last.copy(last.len, from, from_lane);
+            last.len += 1;
         }
     }
 
-    /// Finds the order in which packets are taken; leaves it empty if that of the targets will do.
+    /// Sorts the segments by direction if their order is poor.
     #[inline(always)]
     fn sort(&mut self) {
-        let len = self.places.len();
-        self.order.clear();
-        if len <= PACKET || !self.is_scattered() {
+        let count = self.packets.len();
+        if count < 2 || !self.is_scattered() {
             return;
         }
         // About as many cells on the cube, 6 · 4ᵇ for b bits, as there are packets.
-        let bits = if len < 256 {
+        let bits = if count < 16 {
             2
-        } else if len < 1024 {
+        } else if count < 64 {
             3
         } else {
             4
         };
-        let [x, y, z] = &self.directions;
         self.keys.clear();
-        self.keys.resize(len, 0);
-        for (((key, x), y), z) in self.keys.iter_mut().zip(x).zip(y).zip(z) {
-            *key = place_on_cube(bits, *x, *y, *z);
-        }
         let mut starts = [0_u16; 1 << 12];
-        let starts = &mut starts[..1 << (3 * bits)];
-        for &key in &self.keys {
-            starts[key as usize] += 1;
+        for packet in &self.packets {
+            let [x, y, z] = &packet.directions;
+            let mut keys = [0; PACKET];
+            for lane in 0..PACKET {
+                keys[lane] = place_on_cube(bits, x[lane], y[lane], z[lane]);
+            }
+            for &key in &keys[..packet.len] {
+                starts[key as usize] += 1;
+            }
+            self.keys.push(keys);
         }
         let mut sum = 0;
-        for start in starts.iter_mut() {
+        for start in &mut starts[..1 << (3 * bits)] {
             sum += std::mem::replace(start, sum);
         }
-        self.order.resize(len, 0);
-        for (i, &key) in self.keys.iter().enumerate() {
-            let start = &mut starts[key as usize];
-            self.order[*start as usize] = i as u16;
-            *start += 1;
+        self.unsorted.clone_from(&self.packets);
+        for (from, keys) in self.unsorted.iter().zip(&self.keys) {
+            for (lane, &key) in keys[..from.len].iter().enumerate() {
+                let start = &mut starts[key as usize];
+                let to = *start as usize;
+                *start += 1;
+                self.packets[to / PACKET].copy(to % PACKET, from, lane);
+            }
+        }
+        if let Some(last) = self.packets.last_mut() {
+            last.fill_up();
         }
     }
 
@@ -199,17 +215,19 @@ impl Chunk {
     #[inline(always)]
     fn is_scattered(&self) -> bool {
         // The cube has an area of 24.
-        let wide = (24.0 / self.packets() as f32).sqrt();
-        let [x, y, z] = &self.directions;
-        let now = x.iter().zip(y).zip(z);
-        let next = x[1..].iter().zip(&y[1..]).zip(&z[1..]);
-        let mut jumps = 0_u32;
-        for (((x, y), z), ((u, v), w)) in now.zip(next) {
-            let apart = (x - u).abs().max((y - v).abs()).max((z - w).abs());
-            let size = x.abs().max(y.abs()).max(z.abs());
-            jumps += u32::from(apart > wide * size);
+        let wide = (24.0 / self.packets.len() as f32).sqrt();
+        let (mut jumps, mut looked_at) = (0_u32, 0);
+        for packet in self.packets.iter().step_by(SAMPLE) {
+            looked_at += PACKET;
+            let [x, y, z] = &packet.directions;
+            for i in 1..PACKET {
+                let apart = (x[i] - x[i - 1]).abs().max((y[i] - y[i - 1]).abs());
+                let apart = apart.max((z[i] - z[i - 1]).abs());
+                let size = x[i].abs().max(y[i].abs()).max(z[i].abs());
+                jumps += u32::from(apart > wide * size);
+            }
         }
-        jumps as usize * JUMPS > self.places.len()
+        jumps as usize * JUMPS > looked_at
     }
 }
 

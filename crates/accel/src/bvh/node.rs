@@ -50,6 +50,16 @@ impl Node {
         self.children[lane] = from.children[from_lane];
     }
 
+    /// The lanes with a child, one bit each.
+    #[inline(always)]
+    pub(super) fn used(&self) -> u32 {
+        let mut used = 0;
+        for lane in 0..WIDTH {
+            used |= u32::from(self.children[lane] != NO_CHILD) << lane;
+        }
+        used
+    }
+
     /// The padded box of a lane.
     pub(super) fn child_bounds(&self, lane: usize) -> Aabb {
         let corner = |side: usize| self.bounds.map(|axis| axis[side][lane]).into();

@@ -7,12 +7,11 @@ use glam::Vec3A;
 
 use super::batch::Shooter;
 use super::beam::{Beam, Extremes};
-use super::build::MAX_DEPTH;
 use super::chunk::Sixteen;
 use super::group::Start;
 use super::node::{LEAF, Node, WIDTH};
 use super::planes::Rays;
-use super::segment::blocked;
+use super::segment::blocking;
 use crate::block::LANES;
 use crate::lanes::{Lanes, Simd};
 use crate::local::{LEAST_SLOPE, LocalSegment};
@@ -21,112 +20,58 @@ use crate::{Bvh, NO_TRIANGLE};
 /// Segments per packet.
 pub(super) const PACKET: usize = 16;
 
+/// Stands for the node that a packet starts from.
+const TOP: u32 = u32::MAX;
+
+/// Segments that meet a node's box go on one by one if they are no more.
+const ALONE_BELOW: u32 = 2;
+
 /// A packet on its way.
 pub(super) struct Packet<'a, S: Simd> {
     sixteen: &'a Sixteen,
     rays: Rays<S>,
-    /// Reciprocal directions, and the parameters at which coordinates are 0: see `slabs.rs`.
-    inverse: [S::F16; 3],
-    offset: [S::F16; 3],
     /// Segments without an answer, one bit each.
     active: u32,
 }
 
-impl<'a, S: Simd> Packet<'a, S> {
+/// What tests against boxes need; see `slabs.rs`.
+struct Boxes<S: Simd> {
+    /// Made when it is first asked for; `None` in it if the segments are too far apart.
+    beam: Option<Option<Beam<S>>>,
+    /// Reciprocal directions, and the parameters at which coordinates are 0.
+    inverse: [S::F16; 3],
+    offset: [S::F16; 3],
+}
+
+impl<S: Simd> Boxes<S> {
     #[inline(always)]
-    pub(super) fn new(simd: S, origin: [f32; 3], sixteen: &'a Sixteen) -> Self {
-        let direction = [
-            S::F16::load(simd, &sixteen.directions[0]),
-            S::F16::load(simd, &sixteen.directions[1]),
-            S::F16::load(simd, &sixteen.directions[2]),
-        ];
-        let (mut inverse, mut offset) = (direction, direction);
+    fn of(simd: S, origin: [f32; 3], rays: &Rays<S>) -> Self {
+        let (mut inverse, mut offset) = (rays.direction, rays.direction);
         let (one, least) = (S::F16::splat(simd, 1.0), S::F16::splat(simd, LEAST_SLOPE));
         let mut axis = 0;
         while axis < 3 {
-            let slope = direction[axis].abs().max(least).copysign(direction[axis]);
+            let direction = rays.direction[axis];
+            let slope = direction.abs().max(least).copysign(direction);
             inverse[axis] = one.div(slope);
             offset[axis] = inverse[axis].mul(S::F16::splat(simd, -origin[axis]));
             axis += 1;
         }
-        let active = 0xffff >> (PACKET - sixteen.len);
-        Self { sixteen, rays: Rays::of(simd, direction), inverse, offset, active }
+        Self { beam: None, inverse, offset }
     }
 
-    /// Returns the segments that are blocked, one bit each.
+    /// The children of a node that some segment may meet.
     #[inline(always)]
-    pub(super) fn answer(mut self, shooter: &mut Shooter<S>, start: &Start) -> u32 {
-        let all = self.active;
-        if let Some(last) = shooter.last {
-            self.block(shooter, last, all);
+    fn near(&mut self, simd: S, origin: [f32; 3], rays: &Rays<S>, node: &Node) -> u32 {
+        if self.beam.is_none() {
+            self.beam = Some(beam(simd, origin, rays));
         }
-        if self.active != 0 {
-            match self.beam(shooter.simd, shooter.origin) {
-                Some(beam) => self.descend(shooter, &beam, start),
-                None => self.one_by_one(shooter),
-            }
-        }
-        all & !self.active
-    }
-
-    #[inline(always)]
-    fn beam(&self, simd: S, origin: [f32; 3]) -> Option<Beam<S>> {
-        let [x, y, z] = self.rays.direction;
-        let ends = Extremes {
-            lo: [x.least(), y.least(), z.least()],
-            hi: [x.greatest(), y.greatest(), z.greatest()],
-        };
-        let axis = ends.axis()?;
-        let along = self.rays.direction[axis];
-        let u = self.rays.direction[(axis + 1) % 3].div(along);
-        let v = self.rays.direction[(axis + 2) % 3].div(along);
-        let slopes = ([u.least(), v.least()], [u.greatest(), v.greatest()]);
-        Beam::new(simd, origin, axis, slopes, &ends)
-    }
-
-    /// Follows the beam through the hierarchy until every segment is blocked.
-    #[inline(always)]
-    fn descend(&mut self, shooter: &mut Shooter<S>, beam: &Beam<S>, start: &Start) {
-        let (simd, bvh) = (shooter.simd, shooter.bvh);
-        for top in start.nodes() {
-            // Nodes with children still to visit, and which.
-            let mut stack = [(top, 0_u32); MAX_DEPTH + 1];
-            let mut depth = 0;
-            let (mut node, mut met) = (top, beam.meets(simd, top));
-            loop {
-                if met == 0 {
-                    if depth == 0 {
-                        break;
-                    }
-                    depth -= 1;
-                    (node, met) = stack[depth];
-                    continue;
-                }
-                let lane = met.trailing_zeros() as usize % WIDTH;
-                met &= met - 1;
-                let meeting = self.meeting(simd, node, lane);
-                if meeting == 0 {
-                    continue;
-                }
-                let child = node.children[lane];
-                if child & LEAF != 0 {
-                    self.block(shooter, child & !LEAF, meeting);
-                    if self.active == 0 {
-                        return;
-                    }
-                    continue;
-                }
-                if met != 0 {
-                    stack[depth] = (node, met);
-                    depth += 1;
-                }
-                node = &bvh.nodes[child as usize];
-                met = beam.meets(simd, node);
-            }
+        match &self.beam {
+            Some(Some(beam)) => beam.meets(simd, node),
+            _ => node.used(),
         }
     }
 
-    /// The segments without an answer that meet a child's box; the slab test of `slabs.rs`.
+    /// The segments that meet a child's box; the slab test of `slabs.rs`.
     #[inline(always)]
     fn meeting(&self, simd: S, node: &Node, lane: usize) -> u32 {
         let mut enter = S::F16::splat(simd, 0.0);
@@ -141,65 +86,156 @@ impl<'a, S: Simd> Packet<'a, S> {
             leave = leave.min(a.max(b));
             axis += 1;
         }
-        enter.le(leave) & self.active
+        enter.le(leave)
+    }
+}
+
+#[inline(always)]
+fn beam<S: Simd>(simd: S, origin: [f32; 3], rays: &Rays<S>) -> Option<Beam<S>> {
+    let [x, y, z] = rays.direction;
+    let ends = Extremes {
+        lo: [x.least(), y.least(), z.least()],
+        hi: [x.greatest(), y.greatest(), z.greatest()],
+    };
+    let axis = ends.axis()?;
+    let along = rays.direction[axis];
+    let u = rays.direction[(axis + 1) % 3].div(along);
+    let v = rays.direction[(axis + 2) % 3].div(along);
+    let slopes = ([u.least(), v.least()], [u.greatest(), v.greatest()]);
+    Beam::new(simd, origin, axis, slopes, &ends)
+}
+
+impl<'a, S: Simd> Packet<'a, S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S, sixteen: &'a Sixteen) -> Self {
+        let direction = [
+            S::F16::load(simd, &sixteen.directions[0]),
+            S::F16::load(simd, &sixteen.directions[1]),
+            S::F16::load(simd, &sixteen.directions[2]),
+        ];
+        let active = 0xffff >> (PACKET - sixteen.len);
+        Self { sixteen, rays: Rays::of(simd, direction), active }
+    }
+
+    /// Returns the segments that are blocked, one bit each.
+    #[inline(always)]
+    pub(super) fn answer(&mut self, shooter: &mut Shooter<S>, start: &Start) -> u32 {
+        let all = self.active;
+        if let Some(last) = shooter.last {
+            self.triangle(shooter, last, all);
+        }
+        if self.active != 0 {
+            let mut boxes = Boxes::of(shooter.simd, shooter.origin, &self.rays);
+            self.descend(shooter, &mut boxes, start);
+        }
+        all & !self.active
+    }
+
+    /// Goes through the hierarchy until every segment is blocked.
+    #[inline(always)]
+    fn descend(&mut self, shooter: &mut Shooter<S>, boxes: &mut Boxes<S>, start: &Start) {
+        let (simd, bvh, origin) = (shooter.simd, shooter.bvh, shooter.origin);
+        for top in start.nodes() {
+            let mut depth = 0;
+            let mut number = TOP;
+            let mut node = top;
+            let mut met =
+                if start.few { top.used() } else { boxes.near(simd, origin, &self.rays, top) };
+            loop {
+                if met == 0 {
+                    if depth == 0 {
+                        break;
+                    }
+                    depth -= 1;
+                    (number, met) = shooter.stack[depth];
+                    node = if number == TOP { top } else { &bvh.nodes[number as usize] };
+                    continue;
+                }
+                let lane = met.trailing_zeros() as usize % WIDTH;
+                met &= met - 1;
+                let meeting = boxes.meeting(simd, node, lane) & self.active;
+                if meeting == 0 {
+                    continue;
+                }
+                let child = node.children[lane];
+                if child & LEAF != 0 {
+                    self.block(shooter, child & !LEAF, meeting);
+                } else if meeting.count_ones() <= ALONE_BELOW {
+                    self.alone_below(shooter, child, meeting);
+                } else {
+                    if met != 0 {
+                        shooter.stack[depth] = (number, met);
+                        depth += 1;
+                    }
+                    number = child;
+                    node = &bvh.nodes[child as usize];
+                    met = boxes.near(simd, origin, &self.rays, node);
+                    continue;
+                }
+                if self.active == 0 {
+                    return;
+                }
+            }
+        }
     }
 
     /// Tests the triangles of a block against some segments.
     #[inline(always)]
     fn block(&mut self, shooter: &mut Shooter<S>, index: u32, meeting: u32) {
-        let (simd, bvh, origin, ignore) =
-            (shooter.simd, shooter.bvh, shooter.origin, shooter.ignore);
-        let indices = &bvh.blocks[index as usize].indices;
-        let planes = shooter.planes(index);
-        let mut found = false;
-        let mut candidates = planes.candidates(&self.rays);
+        let mut candidates = shooter.planes(index).candidates(&self.rays);
         while candidates != 0 {
             let lane = candidates.trailing_zeros() as usize % LANES;
             candidates &= candidates - 1;
-            let triangle = indices[lane];
-            if triangle == NO_TRIANGLE {
-                break; // empty lanes come last
-            }
-            let verdict = planes.judge(simd, lane, &self.rays, self.active & meeting);
-            let mut possible = verdict.possible;
-            if possible == 0 || triangle == ignore {
-                continue;
-            }
-            while possible != 0 {
-                let ray = possible.trailing_zeros() as usize % PACKET;
-                possible &= possible - 1;
-                if self.sixteen.ignore[ray] != triangle
-                    && (verdict.sure >> ray & 1 == 1
-                        || crosses(bvh, origin, self.sixteen.direction(ray), (index, lane)))
-                {
-                    self.active &= !(1 << ray);
-                    found = true;
-                }
-            }
+            self.triangle(shooter, (index, lane), meeting);
             if self.active == 0 {
                 break;
             }
         }
-        if found {
-            shooter.last = Some(index);
+    }
+
+    /// Tests a triangle, given by block and lane, against some segments.
+    #[inline(always)]
+    fn triangle(&mut self, shooter: &mut Shooter<S>, (index, lane): (u32, usize), meeting: u32) {
+        let (simd, bvh, origin) = (shooter.simd, shooter.bvh, shooter.origin);
+        let triangle = bvh.blocks[index as usize].indices[lane];
+        let verdict = shooter.planes(index).judge(simd, lane, &self.rays, self.active & meeting);
+        if verdict.possible == 0 || triangle == shooter.ignore || triangle == NO_TRIANGLE {
+            return;
+        }
+        let possible = verdict.possible & !self.sixteen.ignoring(triangle);
+        let mut blocked = possible & verdict.sure;
+        let mut unsure = possible & !verdict.sure;
+        while unsure != 0 {
+            let ray = unsure.trailing_zeros() as usize % PACKET;
+            unsure &= unsure - 1;
+            let direction = self.sixteen.direction(ray);
+            blocked |= u32::from(crosses(bvh, origin, direction, (index, lane))) << ray;
+        }
+        if blocked != 0 {
+            self.active &= !blocked;
+            shooter.last = Some((index, lane));
         }
     }
 
-    /// For a packet that is too wide for a beam.
+    /// Asks segments one by one whether anything below a node is in their way.
     #[inline(always)]
-    fn one_by_one(&mut self, shooter: &Shooter<S>) {
-        let mut waiting = self.active;
+    fn alone_below(&mut self, shooter: &mut Shooter<S>, node: u32, mut waiting: u32) {
         while waiting != 0 {
             let ray = waiting.trailing_zeros() as usize % PACKET;
             waiting &= waiting - 1;
-            let ignore = [shooter.ignore, self.sixteen.ignore[ray]];
-            let (origin, direction) = (shooter.origin.into(), self.sixteen.direction(ray));
-            if let Some(segment) = LocalSegment::of(origin, direction, ignore)
-                && blocked(shooter.simd, shooter.bvh, &segment)
+            if let Some(segment) = self.segment(shooter, ray)
+                && let Some(found) = blocking(shooter.simd, shooter.bvh, &segment, node)
             {
                 self.active &= !(1 << ray);
+                shooter.last = Some(found);
             }
         }
+    }
+
+    #[inline(always)]
+    fn segment(&self, shooter: &Shooter<S>, ray: usize) -> Option<LocalSegment> {
+        let ignore = [shooter.ignore, self.sixteen.ignore[ray]];
+        LocalSegment::of(shooter.origin.into(), self.sixteen.direction(ray), ignore)
     }
 }
 

@@ -113,16 +113,6 @@ pub(super) struct Verdict {
 }
 
 impl Planes {
-    /// Stands where none were computed yet.
-    pub(super) const NONE: Self = Self {
-        edges: [[Vec4::ZERO; 3]; 3],
-        normal: [Vec4::ZERO; 3],
-        front: Vec4::ZERO,
-        edge_error: Vec4::ZERO,
-        depth_error: Vec4::ZERO,
-        far: Vec4::ZERO,
-    };
-
     #[inline(always)]
     pub(super) fn of(block: &Block, origin: [f32; 3]) -> Self {
         let o = origin.map(Vec4::splat);

@@ -30,15 +30,23 @@ impl Kernel for Blocked<'_> {
 /// The kernel itself, for other kernels to call.
 #[inline(always)]
 pub(super) fn blocked<S: Simd>(simd: S, bvh: &Bvh, segment: &LocalSegment) -> bool {
-    if bvh.nodes.is_empty() {
-        return false;
-    }
+    !bvh.nodes.is_empty() && blocking(simd, bvh, segment, 0).is_some()
+}
+
+/// A triangle below a node that blocks the segment, by block and lane.
+#[inline(always)]
+pub(super) fn blocking<S: Simd>(
+    simd: S,
+    bvh: &Bvh,
+    segment: &LocalSegment,
+    below: u32,
+) -> Option<(u32, usize)> {
     let slabs = Slabs::of(simd, segment);
     let end = S::F8::splat(simd, 1.0);
     // Nodes with children still to visit, and which.
     let mut stack = [(0_u32, 0_u32); MAX_DEPTH];
     let mut depth = 0;
-    let mut current = 0_u32;
+    let mut current = below;
     loop {
         let node = &bvh.nodes[current as usize];
         let (enter, leave) = slabs.span(simd, node, end);
@@ -47,7 +55,7 @@ pub(super) fn blocked<S: Simd>(simd: S, bvh: &Bvh, segment: &LocalSegment) -> bo
         loop {
             while met == 0 {
                 if depth == 0 {
-                    return false;
+                    return None;
                 }
                 depth -= 1;
                 (parent, met) = stack[depth];
@@ -63,8 +71,9 @@ pub(super) fn blocked<S: Simd>(simd: S, bvh: &Bvh, segment: &LocalSegment) -> bo
                 current = child;
                 break;
             }
-            if bvh.blocks[(child & !LEAF) as usize].blocks(segment) {
-                return true;
+            let block = child & !LEAF;
+            if let Some(lane) = bvh.blocks[block as usize].blocking(segment) {
+                return Some((block, lane));
             }
         }
     }
