@@ -14,7 +14,7 @@
 //!
 //! [`HIT_ERROR`]: crate::triangle::HIT_ERROR
 
-use super::node::Node;
+use super::node::Boxes;
 use crate::lanes::{Lanes, Simd};
 
 /// The greatest slope of a plane; see above.
@@ -120,13 +120,13 @@ impl<S: Simd> Beam<S> {
 
     /// The lanes whose boxes may be met.
     #[inline(always)]
-    pub(super) fn meets(&self, simd: S, node: &Node) -> u32 {
-        let near = S::F8::load(simd, &node.bounds[self.axis][self.near & 1]).mul(self.sign);
-        let far = S::F8::load(simd, &node.bounds[self.axis][self.near & 1 ^ 1]).mul(self.sign);
+    pub(super) fn meets(&self, simd: S, boxes: &Boxes) -> u32 {
+        let near = S::F8::load(simd, &boxes.bounds[self.axis][self.near & 1]).mul(self.sign);
+        let far = S::F8::load(simd, &boxes.bounds[self.axis][self.near & 1 ^ 1]).mul(self.sign);
         let mut room = self.end.sub(near).min(far.sub(self.start));
         let mut i = 0;
         while i < 6 {
-            room = room.min(self.planes[i].room(simd, node));
+            room = room.min(self.planes[i].room(simd, boxes));
             i += 1;
         }
         S::F8::splat(simd, 0.0).le(room)
@@ -193,9 +193,9 @@ impl<S: Simd> Plane<S> {
 
     /// How deep the boxes reach into the half space; negative outside.
     #[inline(always)]
-    fn room(&self, simd: S, node: &Node) -> S::F8 {
-        let base = S::F8::load(simd, &node.bounds[self.base][self.base_side & 1]);
-        let along = S::F8::load(simd, &node.bounds[self.along][self.side & 1]);
+    fn room(&self, simd: S, boxes: &Boxes) -> S::F8 {
+        let base = S::F8::load(simd, &boxes.bounds[self.base][self.base_side & 1]);
+        let along = S::F8::load(simd, &boxes.bounds[self.along][self.side & 1]);
         along.mul_add(self.sign, base.mul_add(self.slope, self.constant))
     }
 }

@@ -7,7 +7,7 @@
 use std::mem;
 
 use super::BvhConfig;
-use super::node::{LEAF, NO_CHILD, Node, WIDTH};
+use super::node::{Node, WIDTH};
 use super::split::{MAX_BINS, Set};
 use crate::aabb::Aabb;
 use crate::block::{Block, LANES};
@@ -28,13 +28,12 @@ fn may_be_uneven(len: usize, depth: usize) -> bool {
 }
 
 /// Nodes (root first), leaf blocks and the depth. The parts of a hierarchy have the same form;
-/// `root` may then be a leaf.
+/// they may be one block without a node.
 #[derive(Debug, Default)]
 pub(super) struct Tree {
     pub(super) nodes: Vec<Node>,
     pub(super) blocks: Vec<Block>,
     pub(super) depth: usize,
-    root: u32,
 }
 
 /// Says which promise of the caller of [`super::Bvh::build_with`] is broken.
@@ -76,7 +75,8 @@ pub(super) fn build(
     let builder = Builder { triangles, bins: config.bins.clamp(2, MAX_BINS) };
     let set = Set::of(&mut order, &mut boxes);
     if set.len() <= GRAIN {
-        builder.node(&mut tree, set, 1);
+        tree.nodes.push(Node::EMPTY);
+        builder.node(&mut tree, 0, set, 1);
     } else {
         let waiting = |set, depth| Part(State::Waiting { builder, set, depth });
         let mut parts: Vec<Part> =
@@ -103,50 +103,56 @@ pub(super) fn build(
 fn assemble<'a>(parts: Vec<Part>, pieces: impl Iterator<Item = (usize, Part<'a>)>) -> Tree {
     let mut pieces = pieces.peekable();
     let mut tree = Tree { nodes: vec![Node::EMPTY], depth: 1, ..Tree::default() };
+    let mut below = Vec::new();
     for (lane, part) in parts.into_iter().enumerate() {
-        let (child, bounds) = match part.0 {
-            State::Built(below) => tree.append(below, 1),
+        below.push(match part.0 {
+            State::Built(tree) => tree,
             State::Waiting { .. } | State::Taken => panic!("{LEFT_OUT}"),
             State::Divided { .. } => {
-                let index = tree.nodes.len();
-                tree.nodes.push(Node::EMPTY);
-                let mut bounds = Aabb::EMPTY;
-                let mut inner = 0;
+                let mut trees = Vec::new();
                 while let Some((_, piece)) = pieces.next_if(|(number, _)| *number == lane) {
-                    let State::Built(below) = piece.0 else { panic!("{LEFT_OUT}") };
-                    let (child, piece_bounds) = tree.append(below, 2);
-                    tree.nodes[index].set_child(inner, child, &piece_bounds);
-                    bounds.join(&piece_bounds);
-                    inner += 1;
+                    let State::Built(tree) = piece.0 else { panic!("{LEFT_OUT}") };
+                    trees.push(tree);
                 }
-                (index as u32, bounds)
+                let mut tree = Tree { nodes: vec![Node::EMPTY], depth: 1, ..Tree::default() };
+                tree.hang(trees);
+                tree
             }
-        };
-        tree.nodes[0].set_child(lane, child, &bounds);
+        });
     }
+    tree.hang(below);
     tree
 }
 
 impl Tree {
-    /// Takes in a part that hangs `depth` nodes below the root; returns its root, and its bounds.
-    fn append(&mut self, mut part: Self, depth: usize) -> (u32, Aabb) {
-        let (nodes, blocks) = (self.nodes.len() as u32, self.blocks.len() as u32);
-        let moved = |child: u32| match child {
-            NO_CHILD => NO_CHILD,
-            leaf if leaf & LEAF != 0 => leaf + blocks,
-            node => node + nodes,
-        };
-        for node in &mut part.nodes {
-            node.children = node.children.map(moved);
-        }
+    fn bounds(&self) -> Aabb {
         let mut bounds = Aabb::EMPTY;
-        for triangle in part.blocks.iter().flat_map(Block::triangles) {
+        for triangle in self.blocks.iter().flat_map(Block::triangles) {
             bounds.join(&Aabb::of_triangle(&triangle.vertices));
         }
-        self.nodes.append(&mut part.nodes);
-        self.blocks.append(&mut part.blocks);
-        self.depth = self.depth.max(depth + part.depth);
-        (moved(part.root), bounds)
+        bounds
+    }
+
+    /// Makes other hierarchies the children of the root: those with nodes first, then single blocks.
+    fn hang(&mut self, trees: Vec<Self>) {
+        let inner = trees.iter().take_while(|tree| !tree.nodes.is_empty()).count();
+        let mut root = Node::new(inner, self.nodes.len(), self.blocks.len());
+        trees.iter().for_each(|tree| root.push(&tree.bounds()));
+        self.nodes[0] = root;
+        for tree in &trees[inner..] {
+            self.blocks.extend(&tree.blocks);
+        }
+        let first = self.nodes.len();
+        self.nodes.resize(first + inner, Node::EMPTY);
+        for (i, mut tree) in trees.into_iter().take(inner).enumerate() {
+            // The root takes the place kept for it; the others, numbered from 1, follow.
+            let (nodes, blocks) = (self.nodes.len() as u32 - 1, self.blocks.len() as u32);
+            tree.nodes.iter_mut().for_each(|node| node.shift(nodes, blocks));
+            self.nodes[first + i] = tree.nodes[0];
+            self.nodes.extend(&tree.nodes[1..]);
+            self.blocks.append(&mut tree.blocks);
+            self.depth = self.depth.max(1 + tree.depth);
+        }
     }
 }
 
@@ -163,8 +169,13 @@ impl Part<'_> {
             State::Divided { sets: builder.divide(set, depth), depth }
         } else {
             let mut tree = Tree::default();
-            tree.root = builder.child(&mut tree, set, depth);
-            tree.depth = tree.depth.saturating_sub(depth - 1);
+            if set.len() > LANES {
+                tree.nodes.push(Node::EMPTY);
+                builder.node(&mut tree, 0, set, depth);
+                tree.depth -= depth - 1;
+            } else {
+                tree.blocks.push(builder.block(&set));
+            }
             State::Built(tree)
         };
     }
@@ -177,28 +188,26 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Adds the node over a set; returns its index.
+    /// Fills in the node over a set, and adds what is below it.
     ///
     /// Recursion is as deep as the hierarchy, at most [`MAX_DEPTH`].
-    fn node(&self, tree: &mut Tree, set: Set, depth: usize) -> u32 {
+    fn node(&self, tree: &mut Tree, number: usize, set: Set, depth: usize) {
         tree.depth = tree.depth.max(depth);
-        let index = tree.nodes.len();
-        tree.nodes.push(Node::EMPTY);
-        for (lane, part) in self.divide(set, depth).into_iter().enumerate() {
-            let bounds = part.bounds;
-            let child = self.child(tree, part, depth + 1);
-            tree.nodes[index].set_child(lane, child, &bounds);
+        let parts = self.divide(set, depth);
+        let inner = parts.iter().take_while(|part| part.len() > LANES).count();
+        let first = tree.nodes.len();
+        let mut node = Node::new(inner, first, tree.blocks.len());
+        parts.iter().for_each(|part| node.push(&part.bounds));
+        tree.nodes[number] = node;
+        tree.nodes.resize(first + inner, Node::EMPTY);
+        tree.blocks.extend(parts[inner..].iter().map(|part| self.block(part)));
+        for (i, part) in parts.into_iter().take(inner).enumerate() {
+            self.node(tree, first + i, part, depth + 1);
         }
-        index as u32
     }
 
-    /// Adds a leaf or a node.
-    fn child(&self, tree: &mut Tree, set: Set, depth: usize) -> u32 {
-        if set.len() > LANES {
-            return self.node(tree, set, depth);
-        }
-        tree.blocks.push(Block::of(set.order.iter().map(|&i| &self.triangles[i as usize])));
-        LEAF | (tree.blocks.len() - 1) as u32
+    fn block(&self, set: &Set) -> Block {
+        Block::of(set.order.iter().map(|&i| &self.triangles[i as usize]))
     }
 
     /// Divides a set into the children of a node at a depth.

@@ -7,7 +7,7 @@
 use super::Bvh;
 use super::beam::{Beam, Extremes};
 use super::chunk::Sixteen;
-use super::node::{LEAF, Node, WIDTH};
+use super::node::{Boxes, LEAF, WIDTH};
 use crate::lanes::{Lanes, Simd};
 
 /// Packets per group (example `mrays`: 8 and 32 are slower by up to a tenth).
@@ -22,8 +22,9 @@ const FEW_BOXES: usize = 10;
 
 /// The boxes that a group meets, in nodes of their own.
 pub(super) struct Start {
-    nodes: [Node; NODES],
-    used: usize,
+    boxes: [Boxes; NODES],
+    children: [[u32; WIDTH]; NODES],
+    count: usize,
     /// Whether the boxes are so few that a packet need not look for those near it first.
     pub(super) few: bool,
 }
@@ -35,14 +36,20 @@ impl Start {
         let root = &bvh.nodes[0];
         let beam = if packets.len() > 1 { beam(simd, origin, packets) } else { None };
         let Some(beam) = beam else {
-            return Self { nodes: [*root, Node::EMPTY, Node::EMPTY], used: 1, few: false };
+            let mut start = Self { few: false, ..Self::EMPTY };
+            start.boxes[0] = root.boxes;
+            for lane in root.lanes() {
+                start.children[0][lane] = root.child(lane);
+            }
+            start.count = root.lanes().len();
+            return start;
         };
         // Children, by their parent and lane; those before `at` are leaves.
         let mut list = [(0_u32, 0_usize); NODES * WIDTH];
         let mut count = 0;
         let mut at = 0;
         let mut node = 0;
-        let mut met = beam.meets(simd, root);
+        let mut met = beam.meets(simd, &root.boxes);
         loop {
             while met != 0 {
                 list[count] = (node, met.trailing_zeros() as usize % WIDTH);
@@ -57,30 +64,39 @@ impl Start {
             }
             // The next inner one gives its place to the last, and its children follow.
             node = child(bvh, list[at]);
-            met = beam.meets(simd, &bvh.nodes[node as usize]);
+            met = beam.meets(simd, &bvh.nodes[node as usize].boxes);
             if count - 1 + met.count_ones() as usize > list.len() {
                 break;
             }
             count -= 1;
             list[at] = list[count];
         }
-        let few = count <= FEW_BOXES;
-        let mut start = Self { nodes: [Node::EMPTY; NODES], used: count.div_ceil(WIDTH), few };
+        let mut start = Self { count, few: count <= FEW_BOXES, ..Self::EMPTY };
         for (i, &(parent, lane)) in list[..count].iter().enumerate() {
-            start.nodes[i / WIDTH].copy_child(i % WIDTH, &bvh.nodes[parent as usize], lane);
+            let parent = &bvh.nodes[parent as usize];
+            start.boxes[i / WIDTH].copy(i % WIDTH, &parent.boxes, lane);
+            start.children[i / WIDTH][i % WIDTH] = parent.child(lane);
         }
         start
     }
 
+    const EMPTY: Self =
+        Self { boxes: [Boxes::EMPTY; NODES], children: [[0; WIDTH]; NODES], count: 0, few: true };
+
+    /// The boxes, eight at a time, with how many there are and what is in them.
     #[inline(always)]
-    pub(super) fn nodes(&self) -> &[Node] {
-        &self.nodes[..self.used]
+    pub(super) fn eights(&self) -> impl Iterator<Item = (&Boxes, usize, &[u32; WIDTH])> {
+        let first = (0..self.count).step_by(WIDTH);
+        let eights = self.boxes.iter().zip(&self.children);
+        eights
+            .zip(first)
+            .map(|((boxes, children), first)| (boxes, WIDTH.min(self.count - first), children))
     }
 }
 
 #[inline(always)]
 fn child(bvh: &Bvh, (parent, lane): (u32, usize)) -> u32 {
-    bvh.nodes[parent as usize].children[lane]
+    bvh.nodes[parent as usize].child(lane)
 }
 
 /// The beam around all segments of some packets.

@@ -110,7 +110,7 @@ impl Bvh {
     ) -> Self {
         assert!(triangles.len() < LEAF as usize - 1, "one bit of each index marks leaves");
         let (frame, kept) = Frame::of(triangles);
-        let Tree { nodes, blocks, depth, .. } = build::build(&kept, config, run);
+        let Tree { nodes, blocks, depth } = build::build(&kept, config, run);
         Self { frame, nodes, blocks, depth, width: Found::of(Width::fastest()) }
     }
 

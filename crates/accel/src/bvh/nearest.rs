@@ -76,7 +76,7 @@ impl Kernel for Nearest<'_> {
                 continue;
             }
             let node = &bvh.nodes[child as usize];
-            let (enter, leave) = slabs.span(simd, node, S::F8::splat(simd, limit));
+            let (enter, leave) = slabs.span(simd, &node.boxes, S::F8::splat(simd, limit));
             let mut met = enter.le(leave);
             enter.store(&mut enters);
             let first = waiting;
@@ -89,7 +89,7 @@ impl Kernel for Nearest<'_> {
                     stack[place] = stack[place - 1];
                     place -= 1;
                 }
-                stack[place] = (node.children[lane], enters[lane]);
+                stack[place] = (node.child(lane), enters[lane]);
                 waiting += 1;
             }
         }

@@ -9,7 +9,7 @@ use super::batch::Shooter;
 use super::beam::{Beam, Extremes};
 use super::chunk::Sixteen;
 use super::group::Start;
-use super::node::{LEAF, Node, WIDTH};
+use super::node::{self, LEAF, WIDTH};
 use super::planes::Rays;
 use super::segment::blocking;
 use crate::block::LANES;
@@ -19,9 +19,6 @@ use crate::{Bvh, NO_TRIANGLE};
 
 /// Segments per packet.
 pub(super) const PACKET: usize = 16;
-
-/// Stands for the node that a packet starts from.
-const TOP: u32 = u32::MAX;
 
 /// Segments that meet a node's box go on one by one if they are no more.
 const ALONE_BELOW: u32 = 2;
@@ -35,7 +32,7 @@ pub(super) struct Packet<'a, S: Simd> {
 }
 
 /// What tests against boxes need; see `slabs.rs`.
-struct Boxes<S: Simd> {
+struct PacketSlabs<S: Simd> {
     /// Made when it is first asked for; `None` in it if the segments are too far apart.
     beam: Option<Option<Beam<S>>>,
     /// Reciprocal directions, and the parameters at which coordinates are 0.
@@ -43,7 +40,7 @@ struct Boxes<S: Simd> {
     offset: [S::F16; 3],
 }
 
-impl<S: Simd> Boxes<S> {
+impl<S: Simd> PacketSlabs<S> {
     #[inline(always)]
     fn of(simd: S, origin: [f32; 3], rays: &Rays<S>) -> Self {
         let (mut inverse, mut offset) = (rays.direction, rays.direction);
@@ -59,27 +56,34 @@ impl<S: Simd> Boxes<S> {
         Self { beam: None, inverse, offset }
     }
 
-    /// The children of a node that some segment may meet.
+    /// Of the first `count` boxes of a node, those that some segment may meet.
     #[inline(always)]
-    fn near(&mut self, simd: S, origin: [f32; 3], rays: &Rays<S>, node: &Node) -> u32 {
+    fn near(
+        &mut self,
+        simd: S,
+        origin: [f32; 3],
+        rays: &Rays<S>,
+        boxes: &node::Boxes,
+        used: u32,
+    ) -> u32 {
         if self.beam.is_none() {
             self.beam = Some(beam(simd, origin, rays));
         }
         match &self.beam {
-            Some(Some(beam)) => beam.meets(simd, node),
-            _ => node.used(),
+            Some(Some(beam)) => beam.meets(simd, boxes),
+            _ => used,
         }
     }
 
     /// The segments that meet a child's box; the slab test of `slabs.rs`.
     #[inline(always)]
-    fn meeting(&self, simd: S, node: &Node, lane: usize) -> u32 {
+    fn meeting(&self, simd: S, boxes: &node::Boxes, lane: usize) -> u32 {
         let mut enter = S::F16::splat(simd, 0.0);
         let mut leave = S::F16::splat(simd, 1.0);
         let mut axis = 0;
         while axis < 3 {
             let (inverse, offset) = (self.inverse[axis], self.offset[axis]);
-            let [lo, hi] = &node.bounds[axis];
+            let [lo, hi] = &boxes.bounds[axis];
             let a = S::F16::splat(simd, lo[lane]).mul_add(inverse, offset);
             let b = S::F16::splat(simd, hi[lane]).mul_add(inverse, offset);
             enter = enter.max(a.min(b));
@@ -125,56 +129,81 @@ impl<'a, S: Simd> Packet<'a, S> {
             self.triangle(shooter, last, all);
         }
         if self.active != 0 {
-            let mut boxes = Boxes::of(shooter.simd, shooter.origin, &self.rays);
-            self.descend(shooter, &mut boxes, start);
+            let mut slabs = PacketSlabs::of(shooter.simd, shooter.origin, &self.rays);
+            self.descend(shooter, &mut slabs, start);
         }
         all & !self.active
     }
 
     /// Goes through the hierarchy until every segment is blocked.
     #[inline(always)]
-    fn descend(&mut self, shooter: &mut Shooter<S>, boxes: &mut Boxes<S>, start: &Start) {
-        let (simd, bvh, origin) = (shooter.simd, shooter.bvh, shooter.origin);
-        for top in start.nodes() {
-            let mut depth = 0;
-            let mut number = TOP;
-            let mut node = top;
+    fn descend(&mut self, shooter: &mut Shooter<S>, slabs: &mut PacketSlabs<S>, start: &Start) {
+        let (simd, origin) = (shooter.simd, shooter.origin);
+        for (boxes, count, children) in start.eights() {
+            let used = (1 << count) - 1;
             let mut met =
-                if start.few { top.used() } else { boxes.near(simd, origin, &self.rays, top) };
-            loop {
-                if met == 0 {
-                    if depth == 0 {
-                        break;
-                    }
-                    depth -= 1;
-                    (number, met) = shooter.stack[depth];
-                    node = if number == TOP { top } else { &bvh.nodes[number as usize] };
-                    continue;
-                }
+                if start.few { used } else { slabs.near(simd, origin, &self.rays, boxes, used) };
+            while met != 0 {
                 let lane = met.trailing_zeros() as usize % WIDTH;
                 met &= met - 1;
-                let meeting = boxes.meeting(simd, node, lane) & self.active;
+                let meeting = slabs.meeting(simd, boxes, lane) & self.active;
                 if meeting == 0 {
                     continue;
                 }
-                let child = node.children[lane];
+                let child = children[lane];
                 if child & LEAF != 0 {
                     self.block(shooter, child & !LEAF, meeting);
                 } else if meeting.count_ones() <= ALONE_BELOW {
                     self.alone_below(shooter, child, meeting);
                 } else {
-                    if met != 0 {
-                        shooter.stack[depth] = (number, met);
-                        depth += 1;
-                    }
-                    number = child;
-                    node = &bvh.nodes[child as usize];
-                    met = boxes.near(simd, origin, &self.rays, node);
-                    continue;
+                    self.below(shooter, slabs, child);
                 }
                 if self.active == 0 {
                     return;
                 }
+            }
+        }
+    }
+
+    /// Goes through what is below a node until every segment is blocked.
+    #[inline(always)]
+    fn below(&mut self, shooter: &mut Shooter<S>, slabs: &mut PacketSlabs<S>, mut number: u32) {
+        let (simd, bvh, origin) = (shooter.simd, shooter.bvh, shooter.origin);
+        let mut depth = 0;
+        let mut node = &bvh.nodes[number as usize];
+        let mut met = slabs.near(simd, origin, &self.rays, &node.boxes, node.used());
+        loop {
+            if met == 0 {
+                if depth == 0 {
+                    return;
+                }
+                depth -= 1;
+                (number, met) = shooter.stack[depth];
+                node = &bvh.nodes[number as usize];
+                continue;
+            }
+            let lane = met.trailing_zeros() as usize % WIDTH;
+            met &= met - 1;
+            let meeting = slabs.meeting(simd, &node.boxes, lane) & self.active;
+            if meeting == 0 {
+                continue;
+            }
+            if lane as u32 >= node.inner {
+                self.block(shooter, node.block(lane), meeting);
+            } else if meeting.count_ones() <= ALONE_BELOW {
+                self.alone_below(shooter, node.first_node + lane as u32, meeting);
+            } else {
+                if met != 0 {
+                    shooter.stack[depth] = (number, met);
+                    depth += 1;
+                }
+                number = node.first_node + lane as u32;
+                node = &bvh.nodes[number as usize];
+                met = slabs.near(simd, origin, &self.rays, &node.boxes, node.used());
+                continue;
+            }
+            if self.active == 0 {
+                return;
             }
         }
     }

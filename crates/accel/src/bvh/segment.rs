@@ -2,7 +2,6 @@
 
 use super::Bvh;
 use super::build::MAX_DEPTH;
-use super::node::LEAF;
 use super::slabs::Slabs;
 use crate::Segment;
 use crate::lanes::{Kernel, Lanes, Simd};
@@ -48,30 +47,29 @@ pub(super) fn blocking<S: Simd>(
     let mut depth = 0;
     let mut current = below;
     loop {
-        let node = &bvh.nodes[current as usize];
-        let (enter, leave) = slabs.span(simd, node, end);
+        let mut node = &bvh.nodes[current as usize];
+        let (enter, leave) = slabs.span(simd, &node.boxes, end);
         let mut met = enter.le(leave);
-        let mut parent = current;
         loop {
             while met == 0 {
                 if depth == 0 {
                     return None;
                 }
                 depth -= 1;
-                (parent, met) = stack[depth];
+                (current, met) = stack[depth];
+                node = &bvh.nodes[current as usize];
             }
-            let lane = met.trailing_zeros() as usize;
+            let lane = met.trailing_zeros();
             met &= met - 1;
-            let child = bvh.nodes[parent as usize].children[lane & 7];
-            if child & LEAF == 0 {
+            if lane < node.inner {
                 if met != 0 {
-                    stack[depth] = (parent, met);
+                    stack[depth] = (current, met);
                     depth += 1;
                 }
-                current = child;
+                current = node.first_node + lane;
                 break;
             }
-            let block = child & !LEAF;
+            let block = node.block(lane as usize);
             if let Some(lane) = bvh.blocks[block as usize].blocking(segment) {
                 return Some((block, lane));
             }

@@ -1,6 +1,6 @@
 //! One segment against the eight boxes of a node: the slab test (Kay & Kajiya 1986).
 
-use super::node::Node;
+use super::node::Boxes;
 use crate::lanes::{Lanes, Simd};
 use crate::local::LocalSegment;
 
@@ -37,22 +37,22 @@ impl<S: Simd> Slabs<S> {
     /// e · (|b − o| + |b| + |o| + |b − o|) < 6.2 e < 2⁻²¹ at most; boxes are padded by more than
     /// that (see `BOX_PADDING`), so the test never misses a box that the segment meets.
     #[inline(always)]
-    pub(super) fn span(&self, simd: S, node: &Node, limit: S::F8) -> (S::F8, S::F8) {
+    pub(super) fn span(&self, simd: S, boxes: &Boxes, limit: S::F8) -> (S::F8, S::F8) {
         let [x, y, z] = self.near;
-        let enter_x = self.at(simd, node, 0, x);
-        let enter_y = self.at(simd, node, 1, y);
-        let enter_z = self.at(simd, node, 2, z);
-        let leave_x = self.at(simd, node, 0, x ^ 1);
-        let leave_y = self.at(simd, node, 1, y ^ 1);
-        let leave_z = self.at(simd, node, 2, z ^ 1);
+        let enter_x = self.at(simd, boxes, 0, x);
+        let enter_y = self.at(simd, boxes, 1, y);
+        let enter_z = self.at(simd, boxes, 2, z);
+        let leave_x = self.at(simd, boxes, 0, x ^ 1);
+        let leave_y = self.at(simd, boxes, 1, y ^ 1);
+        let leave_z = self.at(simd, boxes, 2, z ^ 1);
         let enter = enter_x.max(enter_y).max(enter_z.max(self.start));
         let leave = leave_x.min(leave_y).min(leave_z.min(limit));
         (enter, leave)
     }
 
     #[inline(always)]
-    fn at(&self, simd: S, node: &Node, axis: usize, side: usize) -> S::F8 {
-        let face = S::F8::load(simd, &node.bounds[axis][side & 1]);
+    fn at(&self, simd: S, boxes: &Boxes, axis: usize, side: usize) -> S::F8 {
+        let face = S::F8::load(simd, &boxes.bounds[axis][side & 1]);
         face.mul_add(self.inverse[axis], self.offset[axis])
     }
 }

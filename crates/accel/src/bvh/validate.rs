@@ -1,7 +1,7 @@
 //! Checks that a BVH is what its build promises.
 
 use super::build::MAX_DEPTH;
-use super::node::{LEAF, NO_CHILD, WIDTH};
+use super::node::LEAF;
 use super::{BOX_PADDING, Bvh};
 use crate::aabb::Aabb;
 
@@ -46,8 +46,8 @@ impl Bvh {
         }
         let node = &self.nodes[index];
         let mut all = Aabb::EMPTY;
-        for lane in (0..WIDTH).filter(|&lane| node.children[lane] != NO_CHILD) {
-            let child = node.children[lane];
+        for lane in node.lanes() {
+            let child = node.child(lane);
             let target = (child & !LEAF) as usize;
             let below = if child & LEAF != 0 {
                 parents.1[target] += 1;
@@ -63,7 +63,7 @@ impl Bvh {
                 }
                 self.validate_node(target, depth + 1, parents)?
             };
-            let bounds = node.child_bounds(lane);
+            let bounds = node.boxes.of_lane(lane);
             // Half the padding, because the padded corner was rounded.
             if !bounds.contains(&below.padded(0.5 * BOX_PADDING)) {
                 return Err(format!("child {lane} of node {index} does not hold its triangles"));
