@@ -231,6 +231,45 @@ impl<T: HasAvx2> Lanes for M256<T> {
         Self::new(unsafe { _mm256_or_ps(self.abs().0, sign) })
     }
     #[inline(always)]
+    fn min_above_0(self, other: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self::new(unsafe {
+            _mm256_castsi256_ps(_mm256_min_epi32(
+                _mm256_castps_si256(self.0),
+                _mm256_castps_si256(other.0),
+            ))
+        })
+    }
+    #[inline(always)]
+    fn max_above_0(self, other: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self::new(unsafe {
+            _mm256_castsi256_ps(_mm256_max_epi32(
+                _mm256_castps_si256(self.0),
+                _mm256_castps_si256(other.0),
+            ))
+        })
+    }
+    #[inline(always)]
+    fn le_above_0(self, other: Self) -> u32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        let above = unsafe {
+            _mm256_cmpgt_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(other.0))
+        };
+        // SAFETY: a value of this type exists only where the instructions do.
+        0xff ^ unsafe { _mm256_movemask_ps(_mm256_castsi256_ps(above)) as u32 }
+    }
+    #[inline(always)]
+    fn either_negative(self, other: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self::new(unsafe { _mm256_or_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn negative(self) -> u32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        unsafe { _mm256_movemask_ps(self.0) as u32 }
+    }
+    #[inline(always)]
     fn le(self, other: Self) -> u32 {
         // SAFETY: a value of this type exists only where the instructions do.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
@@ -296,6 +335,43 @@ impl Lanes for M512 {
         let sign = unsafe { _mm512_and_ps(_mm512_set1_ps(-0.0), sign.0) };
         // SAFETY: a value of this type exists only where the instructions do.
         Self(unsafe { _mm512_or_ps(self.abs().0, sign) })
+    }
+    #[inline(always)]
+    fn min_above_0(self, other: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self(unsafe {
+            _mm512_castsi512_ps(_mm512_min_epi32(
+                _mm512_castps_si512(self.0),
+                _mm512_castps_si512(other.0),
+            ))
+        })
+    }
+    #[inline(always)]
+    fn max_above_0(self, other: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self(unsafe {
+            _mm512_castsi512_ps(_mm512_max_epi32(
+                _mm512_castps_si512(self.0),
+                _mm512_castps_si512(other.0),
+            ))
+        })
+    }
+    #[inline(always)]
+    fn le_above_0(self, other: Self) -> u32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        u32::from(unsafe {
+            _mm512_cmple_epi32_mask(_mm512_castps_si512(self.0), _mm512_castps_si512(other.0))
+        })
+    }
+    #[inline(always)]
+    fn either_negative(self, other: Self) -> Self {
+        // SAFETY: a value of this type exists only where the instructions do.
+        Self(unsafe { _mm512_or_ps(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn negative(self) -> u32 {
+        // SAFETY: a value of this type exists only where the instructions do.
+        u32::from(unsafe { _mm512_movepi32_mask(_mm512_castps_si512(self.0)) })
     }
     #[inline(always)]
     fn le(self, other: Self) -> u32 {

@@ -123,13 +123,13 @@ impl<S: Simd> Beam<S> {
     pub(super) fn meets(&self, simd: S, boxes: &Boxes) -> u32 {
         let near = S::F8::load(simd, &boxes.bounds[self.axis][self.near & 1]).mul(self.sign);
         let far = S::F8::load(simd, &boxes.bounds[self.axis][self.near & 1 ^ 1]).mul(self.sign);
-        let mut room = self.end.sub(near).min(far.sub(self.start));
+        let mut room = self.end.sub(near).either_negative(far.sub(self.start));
         let mut i = 0;
         while i < 6 {
-            room = room.min(self.planes[i].room(simd, boxes));
+            room = room.either_negative(self.planes[i].room(simd, boxes));
             i += 1;
         }
-        S::F8::splat(simd, 0.0).le(room)
+        0xff ^ room.negative()
     }
 }
 

@@ -76,8 +76,7 @@ impl Kernel for Nearest<'_> {
                 continue;
             }
             let node = &bvh.nodes[child as usize];
-            let (enter, leave) = slabs.span(simd, &node.boxes, S::F8::splat(simd, limit));
-            let mut met = enter.le(leave);
+            let (enter, mut met) = slabs.span(simd, &node.boxes, S::F8::splat(simd, limit));
             enter.store(&mut enters);
             let first = waiting;
             while met != 0 {

@@ -86,11 +86,11 @@ impl<S: Simd> PacketSlabs<S> {
             let [lo, hi] = &boxes.bounds[axis];
             let a = S::F16::splat(simd, lo[lane]).mul_add(inverse, offset);
             let b = S::F16::splat(simd, hi[lane]).mul_add(inverse, offset);
-            enter = enter.max(a.min(b));
-            leave = leave.min(a.max(b));
+            enter = enter.max_above_0(a.min_above_0(b));
+            leave = leave.min_above_0(a.max_above_0(b));
             axis += 1;
         }
-        enter.le(leave)
+        enter.le_above_0(leave)
     }
 }
 

@@ -48,8 +48,7 @@ pub(super) fn blocking<S: Simd>(
     let mut current = below;
     loop {
         let mut node = &bvh.nodes[current as usize];
-        let (enter, leave) = slabs.span(simd, &node.boxes, end);
-        let mut met = enter.le(leave);
+        let (_, mut met) = slabs.span(simd, &node.boxes, end);
         loop {
             while met == 0 {
                 if depth == 0 {

@@ -37,7 +37,7 @@ impl<S: Simd> Slabs<S> {
     /// e · (|b − o| + |b| + |o| + |b − o|) < 6.2 e < 2⁻²¹ at most; boxes are padded by more than
     /// that (see `BOX_PADDING`), so the test never misses a box that the segment meets.
     #[inline(always)]
-    pub(super) fn span(&self, simd: S, boxes: &Boxes, limit: S::F8) -> (S::F8, S::F8) {
+    pub(super) fn span(&self, simd: S, boxes: &Boxes, limit: S::F8) -> (S::F8, u32) {
         let [x, y, z] = self.near;
         let enter_x = self.at(simd, boxes, 0, x);
         let enter_y = self.at(simd, boxes, 1, y);
@@ -45,9 +45,10 @@ impl<S: Simd> Slabs<S> {
         let leave_x = self.at(simd, boxes, 0, x ^ 1);
         let leave_y = self.at(simd, boxes, 1, y ^ 1);
         let leave_z = self.at(simd, boxes, 2, z ^ 1);
-        let enter = enter_x.max(enter_y).max(enter_z.max(self.start));
-        let leave = leave_x.min(leave_y).min(leave_z.min(limit));
-        (enter, leave)
+        // Neither a start below 0 nor an end below 0 need be the right one.
+        let enter = enter_x.max_above_0(enter_y).max_above_0(enter_z.max_above_0(self.start));
+        let leave = leave_x.min_above_0(leave_y).min_above_0(leave_z.min_above_0(limit));
+        (enter, enter.le_above_0(leave))
     }
 
     #[inline(always)]
