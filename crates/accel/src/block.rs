@@ -1,6 +1,6 @@
 //! Four triangles side by side, tested together.
 
-use glam::Vec4;
+use glam::{Vec3A, Vec4};
 
 use crate::NO_TRIANGLE;
 use crate::frame::LocalTriangle;
@@ -55,6 +55,12 @@ impl Block {
     #[inline(always)]
     pub(crate) fn vertices(&self) -> &[[Vec4; 3]; 3] {
         &self.vertices
+    }
+
+    /// The corners of the triangle in a lane.
+    #[inline]
+    pub(crate) fn corners(&self, lane: usize) -> [Vec3A; 3] {
+        self.vertices.map(|[x, y, z]| Vec3A::new(x[lane], y[lane], z[lane]))
     }
 
     /// Whether the triangle in a lane crosses `segment`, which may ignore it.

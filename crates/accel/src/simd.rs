@@ -142,7 +142,10 @@ impl Simd for Sixteen {
         // SAFETY: the token shows that the instructions exist.
         (
             rows.map(|[lo, hi]| {
-                M512(unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(lo), hi) })
+                M512(
+                    // SAFETY: the token shows that the instructions exist.
+                    unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(lo), hi) },
+                )
             }),
             inside,
         )

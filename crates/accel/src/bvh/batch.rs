@@ -103,12 +103,13 @@ impl<'a, S: Simd> Shooter<'a, S> {
         for sixteen in packets {
             let mut packet = Packet::new(self.simd, sixteen);
             let answers = packet.answer(self, &start);
-            let first = sixteen.places[0] as usize;
-            if sixteen.places == std::array::from_fn(|i| (first + i) as u16)
-                && let Some(blocked) = blocked.get_mut(first..first + PACKET)
+            // Most packets are sixteen targets in a row: their answers are written side by side.
+            let first = sixteen.places[0];
+            if sixteen.places == std::array::from_fn(|lane| first + lane as u16)
+                && let Some(blocked) = blocked.get_mut(first as usize..first as usize + PACKET)
             {
-                for lane in 0..PACKET {
-                    blocked[lane] = answers >> lane & 1 == 1;
+                for (lane, blocked) in blocked.iter_mut().enumerate() {
+                    *blocked = answers >> lane & 1 == 1;
                 }
                 continue;
             }

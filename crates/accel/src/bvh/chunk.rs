@@ -64,8 +64,8 @@ impl Sixteen {
     #[inline(always)]
     pub(super) fn ignoring(&self, triangle: u32) -> u32 {
         let mut bits = [0_u32; PACKET];
-        for lane in 0..PACKET {
-            bits[lane] = u32::from(self.ignore[lane] == triangle) << lane;
+        for (lane, bit) in bits.iter_mut().enumerate() {
+            *bit = u32::from(self.ignore[lane] == triangle) << lane;
         }
         bits.into_iter().fold(0, |all, bit| all | bit)
     }
@@ -111,15 +111,18 @@ impl Chunk {
         targets: &[Target],
         mut alone: impl FnMut(usize),
     ) {
-        self.packets.clear();
-        let mut full = true;
+        self.packets.resize(targets.len().div_ceil(PACKET), Sixteen::EMPTY);
+        // Packets are filled in their places until a target is left out.
+        let mut in_place = true;
         for (i, some) in targets.chunks(PACKET).enumerate() {
             let mut padded = [some[some.len() - 1]; PACKET];
             let targets: &[Target; PACKET] = some.try_into().unwrap_or_else(|_| {
                 padded[..some.len()].copy_from_slice(some);
                 &padded
             });
-            let mut sixteen = Sixteen { len: some.len(), ..Sixteen::EMPTY };
+            let mut apart = Sixteen::EMPTY;
+            let sixteen = if in_place { &mut self.packets[i] } else { &mut apart };
+            sixteen.len = some.len();
             let (ends, mut regular) = frame.narrow(simd, targets);
             let mut size = S::F16::splat(simd, 0.0);
             let mut axis = 0;
@@ -131,18 +134,21 @@ impl Chunk {
             }
             regular &= S::F16::splat(simd, LEAST_LENGTH).le(size);
             let first = (i * PACKET) as u16;
-            for lane in 0..PACKET {
-                sixteen.ignore[lane] = targets[lane].ignore;
+            for (lane, target) in targets.iter().enumerate() {
+                sixteen.ignore[lane] = target.ignore;
                 sixteen.places[lane] = first + lane as u16;
             }
-            if full && regular == 0xffff {
-                self.packets.push(sixteen);
+            if in_place && regular == 0xffff {
                 continue;
             }
-            full = false;
+            if in_place {
+                apart = *sixteen;
+                self.packets.truncate(i);
+                in_place = false;
+            }
             for lane in 0..some.len() {
                 if regular >> lane & 1 == 1 {
-                    self.push(&sixteen, lane);
+                    self.push(&apart, lane);
                 } else {
                     alone(i * PACKET + lane);
                 }
@@ -185,8 +191,8 @@ impl Chunk {
         for packet in &self.packets {
             let [x, y, z] = &packet.directions;
             let mut keys = [0; PACKET];
-            for lane in 0..PACKET {
-                keys[lane] = place_on_cube(bits, x[lane], y[lane], z[lane]);
+            for (lane, key) in keys.iter_mut().enumerate() {
+                *key = place_on_cube(bits, x[lane], y[lane], z[lane]);
             }
             for &key in &keys[..packet.len] {
                 starts[key as usize] += 1;

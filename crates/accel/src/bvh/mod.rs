@@ -9,6 +9,7 @@ mod build;
 mod chunk;
 mod config;
 mod group;
+mod level;
 mod nearest;
 mod node;
 mod packet;

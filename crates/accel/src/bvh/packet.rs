@@ -3,12 +3,11 @@
 //! A node's eight boxes are tested against the packet's beam at once, each box met against the
 //! segments one by one, and triangles by `planes.rs`.
 
-use glam::Vec3A;
-
 use super::batch::Shooter;
 use super::beam::{Beam, Extremes};
 use super::chunk::Sixteen;
 use super::group::Start;
+use super::level::Level;
 use super::node::{self, LEAF, WIDTH};
 use super::planes::Rays;
 use super::segment::blocking;
@@ -233,12 +232,9 @@ impl<'a, S: Simd> Packet<'a, S> {
         }
         let possible = verdict.possible & !self.sixteen.ignoring(triangle);
         let mut blocked = possible & verdict.sure;
-        let mut unsure = possible & !verdict.sure;
-        while unsure != 0 {
-            let ray = unsure.trailing_zeros() as usize % PACKET;
-            unsure &= unsure - 1;
-            let direction = self.sixteen.direction(ray);
-            blocked |= u32::from(crosses(bvh, origin, direction, (index, lane))) << ray;
+        let unsure = possible & !verdict.sure;
+        if unsure != 0 {
+            blocked |= crossing(bvh, origin, self.sixteen, unsure, (index, lane));
         }
         if blocked != 0 {
             self.active &= !blocked;
@@ -268,9 +264,28 @@ impl<'a, S: Simd> Packet<'a, S> {
     }
 }
 
-/// The exact test of one segment against a triangle, given by block and lane.
-#[inline(never)] // rare, and much code
-fn crosses(bvh: &Bvh, origin: [f32; 3], direction: Vec3A, (block, lane): (u32, usize)) -> bool {
-    LocalSegment::of(origin.into(), direction, [NO_TRIANGLE; 2])
-        .is_some_and(|segment| bvh.blocks[block as usize].crosses(lane, &segment))
+/// Of some segments, those that cross a triangle, which is given by block and lane.
+#[inline(never)] // not often, and much code
+fn crossing(
+    bvh: &Bvh,
+    origin: [f32; 3],
+    sixteen: &Sixteen,
+    mut waiting: u32,
+    (block, lane): (u32, usize),
+) -> u32 {
+    let (block, origin) = (&bvh.blocks[block as usize], origin.into());
+    let level = Level::of(block.corners(lane).map(|corner| corner - origin));
+    let mut crossing = 0;
+    while waiting != 0 {
+        let ray = waiting.trailing_zeros() as usize % PACKET;
+        waiting &= waiting - 1;
+        let direction = sixteen.direction(ray);
+        if !level.clears(direction)
+            && let Some(segment) = LocalSegment::of(origin, direction, [NO_TRIANGLE; 2])
+            && block.crosses(lane, &segment)
+        {
+            crossing |= 1 << ray;
+        }
+    }
+    crossing
 }
