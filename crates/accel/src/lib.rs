@@ -10,6 +10,8 @@ mod frame;
 mod hit;
 mod lanes;
 mod local;
+#[cfg(test)]
+mod near_miss;
 mod nothing;
 mod occluder;
 pub mod octree;

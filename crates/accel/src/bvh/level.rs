@@ -60,49 +60,18 @@ impl Level {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::NO_TRIANGLE;
-    use crate::block::Block;
-    use crate::frame::LocalTriangle;
-    use crate::local::LocalSegment;
+    use crate::near_miss::NearMisses;
 
-    /// Ends at all distances from the plane, down to where f32 rounds them across it.
     #[test]
     fn what_is_cleared_does_not_cross() {
-        // Numbers in [-1, 1) that repeat from run to run (Marsaglia 2003, "Xorshift RNGs").
-        let mut k = 1_u32;
-        let mut next = || {
-            k ^= k << 13;
-            k ^= k >> 17;
-            k ^= k << 5;
-            (k >> 8) as f32 / (1 << 23) as f32 - 1.0
-        };
         let (mut cleared, mut crossed) = (0, 0);
-        for round in 0..200_000 {
-            let origin = Vec3A::new(next(), next(), next());
-            let size = 0.5_f32.powi(round % 12);
-            let at = 0.5 * Vec3A::new(next(), next(), next());
-            let corners = [(); 3].map(|()| at + size * Vec3A::new(next(), next(), next()));
-            // A point of the triangle, moved off it by next to nothing up to a tenth.
-            let (u, v) = (0.25 + 0.2 * next(), 0.25 + 0.2 * next());
-            let on = corners[0] + u * (corners[1] - corners[0]) + v * (corners[2] - corners[0]);
-            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-            if normal.length() < 0.1 * size * size {
-                continue; // so thin that f32 does not tell the normal
-            }
-            let normal = normal.normalize();
-            let off = 0.1_f32.powf(4.0 + 3.0 * next()) * next().signum();
-            let direction = on + off * normal - origin;
-            let block = Block::of(&[LocalTriangle {
-                vertices: corners.map(|corner| corner.to_array()),
-                index: 0,
-            }]);
-            let clears = Level::of(corners.map(|corner| corner - origin)).clears(direction);
-            let segment = LocalSegment::of(origin, direction, [NO_TRIANGLE; 2]);
-            let crosses = segment.is_some_and(|segment| block.crosses(0, &segment));
-            assert!(!(clears && crosses), "{origin} to {direction} by {corners:?}");
+        for miss in NearMisses::new().take(200_000) {
+            let corners = miss.corners.map(|corner| corner - miss.origin);
+            let clears = Level::of(corners).clears(miss.direction);
+            let crosses = miss.segment().is_some_and(|s| miss.block().crosses(0, &s));
+            assert!(!(clears && crosses), "{miss:?}");
             // Coordinates are below 3 here, so the error is at most 21 e times |N|₁ / |N| ≤ √3.
-            let in_front = off * (origin - on).dot(normal).signum();
-            assert!(clears || in_front < 3e-6, "{origin} to {direction} by {corners:?}");
+            assert!(clears || miss.in_front < 3e-6, "{miss:?}");
             cleared += usize::from(clears);
             crossed += usize::from(crosses);
         }
