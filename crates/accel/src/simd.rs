@@ -139,16 +139,11 @@ impl Simd for Sixteen {
     ) -> ([Self::F16; 3], u32) {
         // SAFETY: the token shows that the instructions exist.
         let (rows, inside) = unsafe { narrow_eights(targets, centre, scale, limit) };
-        // SAFETY: the token shows that the instructions exist.
-        (
-            rows.map(|[lo, hi]| {
-                M512(
-                    // SAFETY: the token shows that the instructions exist.
-                    unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(lo), hi) },
-                )
-            }),
-            inside,
-        )
+        let join = |[lo, hi]: [__m256; 2]| {
+            // SAFETY: the token shows that the instructions exist.
+            M512(unsafe { _mm512_insertf32x8::<1>(_mm512_castps256_ps512(lo), hi) })
+        };
+        (rows.map(join), inside)
     }
 }
 
@@ -184,6 +179,18 @@ macro_rules! binary {
     )*};
 }
 
+/// The methods that are one instruction on bit patterns.
+#[cfg(target_arch = "x86_64")]
+macro_rules! integers {
+    ($make:expr, $to:ident, $back:ident; $($method:ident $instruction:ident),*) => {$(
+        #[inline(always)]
+        fn $method(self, other: Self) -> Self {
+            // SAFETY: a value of this type exists only where the instructions do.
+            $make(unsafe { $back($instruction($to(self.0), $to(other.0))) })
+        }
+    )*};
+}
+
 #[cfg(target_arch = "x86_64")]
 impl<T: HasAvx2> M256<T> {
     #[inline(always)]
@@ -215,7 +222,7 @@ impl<T: HasAvx2> Lanes for M256<T> {
         unsafe { _mm256_storeu_ps(to.as_mut_ptr(), self.0) }
     }
     binary!(Self::new; sub _mm256_sub_ps, mul _mm256_mul_ps, div _mm256_div_ps,
-            min _mm256_min_ps, max _mm256_max_ps);
+            min _mm256_min_ps, max _mm256_max_ps, either_negative _mm256_or_ps);
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         // SAFETY: a value of this type exists only where the instructions do.
@@ -233,26 +240,8 @@ impl<T: HasAvx2> Lanes for M256<T> {
         // SAFETY: a value of this type exists only where the instructions do.
         Self::new(unsafe { _mm256_or_ps(self.abs().0, sign) })
     }
-    #[inline(always)]
-    fn min_above_0(self, other: Self) -> Self {
-        // SAFETY: a value of this type exists only where the instructions do.
-        Self::new(unsafe {
-            _mm256_castsi256_ps(_mm256_min_epi32(
-                _mm256_castps_si256(self.0),
-                _mm256_castps_si256(other.0),
-            ))
-        })
-    }
-    #[inline(always)]
-    fn max_above_0(self, other: Self) -> Self {
-        // SAFETY: a value of this type exists only where the instructions do.
-        Self::new(unsafe {
-            _mm256_castsi256_ps(_mm256_max_epi32(
-                _mm256_castps_si256(self.0),
-                _mm256_castps_si256(other.0),
-            ))
-        })
-    }
+    integers!(Self::new, _mm256_castps_si256, _mm256_castsi256_ps;
+              min_above_0 _mm256_min_epi32, max_above_0 _mm256_max_epi32);
     #[inline(always)]
     fn le_above_0(self, other: Self) -> u32 {
         // SAFETY: a value of this type exists only where the instructions do.
@@ -261,11 +250,6 @@ impl<T: HasAvx2> Lanes for M256<T> {
         };
         // SAFETY: a value of this type exists only where the instructions do.
         0xff ^ unsafe { _mm256_movemask_ps(_mm256_castsi256_ps(above)) as u32 }
-    }
-    #[inline(always)]
-    fn either_negative(self, other: Self) -> Self {
-        // SAFETY: a value of this type exists only where the instructions do.
-        Self::new(unsafe { _mm256_or_ps(self.0, other.0) })
     }
     #[inline(always)]
     fn negative(self) -> u32 {
@@ -321,7 +305,7 @@ impl Lanes for M512 {
         unsafe { _mm512_storeu_ps(to.as_mut_ptr(), self.0) }
     }
     binary!(Self; sub _mm512_sub_ps, mul _mm512_mul_ps, div _mm512_div_ps,
-            min _mm512_min_ps, max _mm512_max_ps);
+            min _mm512_min_ps, max _mm512_max_ps, either_negative _mm512_or_ps);
     #[inline(always)]
     fn mul_add(self, factor: Self, term: Self) -> Self {
         // SAFETY: a value of this type exists only where the instructions do.
@@ -339,37 +323,14 @@ impl Lanes for M512 {
         // SAFETY: a value of this type exists only where the instructions do.
         Self(unsafe { _mm512_or_ps(self.abs().0, sign) })
     }
-    #[inline(always)]
-    fn min_above_0(self, other: Self) -> Self {
-        // SAFETY: a value of this type exists only where the instructions do.
-        Self(unsafe {
-            _mm512_castsi512_ps(_mm512_min_epi32(
-                _mm512_castps_si512(self.0),
-                _mm512_castps_si512(other.0),
-            ))
-        })
-    }
-    #[inline(always)]
-    fn max_above_0(self, other: Self) -> Self {
-        // SAFETY: a value of this type exists only where the instructions do.
-        Self(unsafe {
-            _mm512_castsi512_ps(_mm512_max_epi32(
-                _mm512_castps_si512(self.0),
-                _mm512_castps_si512(other.0),
-            ))
-        })
-    }
+    integers!(Self, _mm512_castps_si512, _mm512_castsi512_ps;
+              min_above_0 _mm512_min_epi32, max_above_0 _mm512_max_epi32);
     #[inline(always)]
     fn le_above_0(self, other: Self) -> u32 {
         // SAFETY: a value of this type exists only where the instructions do.
         u32::from(unsafe {
             _mm512_cmple_epi32_mask(_mm512_castps_si512(self.0), _mm512_castps_si512(other.0))
         })
-    }
-    #[inline(always)]
-    fn either_negative(self, other: Self) -> Self {
-        // SAFETY: a value of this type exists only where the instructions do.
-        Self(unsafe { _mm512_or_ps(self.0, other.0) })
     }
     #[inline(always)]
     fn negative(self) -> u32 {

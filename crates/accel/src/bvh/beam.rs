@@ -8,9 +8,10 @@
 //! A box is passed over if it lies outside one of these planes. Computed in f32, with e = 2⁻²⁴,
 //! coordinates of at most 1.02, slopes of at most [`STEEPEST`] = 4 and one rounding in each slope
 //! (three in that between the two axes across), a plane errs by less than 8.4 e (25 e) for the
-//! slope, 9.2 e for its constant and 9.2 e for the side of the box: 44 e at most. A segment that the triangle test accepts passes within [`HIT_ERROR`] = 16 e of
-//! the triangle and boxes are padded by four times that (see `BOX_PADDING`), which leaves 48 e:
-//! no such box is passed over.
+//! slope, 9.2 e for its constant and 9.2 e for the side of the box: 44 e at most. A segment that the
+//! triangle test accepts passes within [`HIT_ERROR`] = 16 e of the triangle and boxes are padded by
+//! four times that (see `BOX_PADDING`), which leaves 48 e: no such box is passed over, not even
+//! where a sum is −0 and counts as outside.
 //!
 //! [`HIT_ERROR`]: crate::triangle::HIT_ERROR
 

@@ -139,6 +139,8 @@ impl Tree {
         let mut root = Node::new(inner, self.nodes.len(), self.blocks.len());
         trees.iter().for_each(|tree| root.push(&tree.bounds()));
         self.nodes[0] = root;
+        self.nodes.reserve_exact(trees.iter().map(|tree| tree.nodes.len()).sum());
+        self.blocks.reserve_exact(trees.iter().map(|tree| tree.blocks.len()).sum());
         for tree in &trees[inner..] {
             self.blocks.extend(&tree.blocks);
         }

@@ -5,6 +5,7 @@
 
 mod batch;
 mod beam;
+mod box_test;
 mod build;
 mod chunk;
 mod config;

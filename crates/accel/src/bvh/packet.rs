@@ -1,19 +1,19 @@
 //! Sixteen segments from one origin on their way through the hierarchy.
 //!
-//! A node's eight boxes are tested against the packet's beam at once, each box met against the
-//! segments one by one, and triangles by `planes.rs`.
+//! Boxes are tested by `box_test.rs`, triangles by `planes.rs`; where no more than two segments are
+//! left to a node, `segment.rs` goes on with each.
 
 use super::batch::Shooter;
-use super::beam::{Beam, Extremes};
+use super::box_test::BoxTest;
 use super::chunk::Sixteen;
 use super::group::Start;
 use super::level::Level;
-use super::node::{self, LEAF, WIDTH};
+use super::node::{LEAF, WIDTH};
 use super::planes::Rays;
 use super::segment::blocking;
 use crate::block::LANES;
 use crate::lanes::{Lanes, Simd};
-use crate::local::{LEAST_SLOPE, LocalSegment};
+use crate::local::LocalSegment;
 use crate::{Bvh, NO_TRIANGLE};
 
 /// Segments per packet.
@@ -28,84 +28,6 @@ pub(super) struct Packet<'a, S: Simd> {
     rays: Rays<S>,
     /// Segments without an answer, one bit each.
     active: u32,
-}
-
-/// What tests against boxes need; see `slabs.rs`.
-struct PacketSlabs<S: Simd> {
-    /// Made when it is first asked for; `None` in it if the segments are too far apart.
-    beam: Option<Option<Beam<S>>>,
-    /// Reciprocal directions, and the parameters at which coordinates are 0.
-    inverse: [S::F16; 3],
-    offset: [S::F16; 3],
-}
-
-impl<S: Simd> PacketSlabs<S> {
-    #[inline(always)]
-    fn of(simd: S, origin: [f32; 3], rays: &Rays<S>) -> Self {
-        let (mut inverse, mut offset) = (rays.direction, rays.direction);
-        let (one, least) = (S::F16::splat(simd, 1.0), S::F16::splat(simd, LEAST_SLOPE));
-        let mut axis = 0;
-        while axis < 3 {
-            let direction = rays.direction[axis];
-            let slope = direction.abs().max(least).copysign(direction);
-            inverse[axis] = one.div(slope);
-            offset[axis] = inverse[axis].mul(S::F16::splat(simd, -origin[axis]));
-            axis += 1;
-        }
-        Self { beam: None, inverse, offset }
-    }
-
-    /// Of the first `count` boxes of a node, those that some segment may meet.
-    #[inline(always)]
-    fn near(
-        &mut self,
-        simd: S,
-        origin: [f32; 3],
-        rays: &Rays<S>,
-        boxes: &node::Boxes,
-        used: u32,
-    ) -> u32 {
-        if self.beam.is_none() {
-            self.beam = Some(beam(simd, origin, rays));
-        }
-        match &self.beam {
-            Some(Some(beam)) => beam.meets(simd, boxes),
-            _ => used,
-        }
-    }
-
-    /// The segments that meet a child's box; the slab test of `slabs.rs`.
-    #[inline(always)]
-    fn meeting(&self, simd: S, boxes: &node::Boxes, lane: usize) -> u32 {
-        let mut enter = S::F16::splat(simd, 0.0);
-        let mut leave = S::F16::splat(simd, 1.0);
-        let mut axis = 0;
-        while axis < 3 {
-            let (inverse, offset) = (self.inverse[axis], self.offset[axis]);
-            let [lo, hi] = &boxes.bounds[axis];
-            let a = S::F16::splat(simd, lo[lane]).mul_add(inverse, offset);
-            let b = S::F16::splat(simd, hi[lane]).mul_add(inverse, offset);
-            enter = enter.max_above_0(a.min_above_0(b));
-            leave = leave.min_above_0(a.max_above_0(b));
-            axis += 1;
-        }
-        enter.le_above_0(leave)
-    }
-}
-
-#[inline(always)]
-fn beam<S: Simd>(simd: S, origin: [f32; 3], rays: &Rays<S>) -> Option<Beam<S>> {
-    let [x, y, z] = rays.direction;
-    let ends = Extremes {
-        lo: [x.least(), y.least(), z.least()],
-        hi: [x.greatest(), y.greatest(), z.greatest()],
-    };
-    let axis = ends.axis()?;
-    let along = rays.direction[axis];
-    let u = rays.direction[(axis + 1) % 3].div(along);
-    let v = rays.direction[(axis + 2) % 3].div(along);
-    let slopes = ([u.least(), v.least()], [u.greatest(), v.greatest()]);
-    Beam::new(simd, origin, axis, slopes, &ends)
 }
 
 impl<'a, S: Simd> Packet<'a, S> {
@@ -128,24 +50,24 @@ impl<'a, S: Simd> Packet<'a, S> {
             self.triangle(shooter, last, all);
         }
         if self.active != 0 {
-            let mut slabs = PacketSlabs::of(shooter.simd, shooter.origin, &self.rays);
-            self.descend(shooter, &mut slabs, start);
+            let mut test = BoxTest::of(shooter.simd, shooter.origin, &self.rays);
+            self.descend(shooter, &mut test, start);
         }
         all & !self.active
     }
 
     /// Goes through the hierarchy until every segment is blocked.
     #[inline(always)]
-    fn descend(&mut self, shooter: &mut Shooter<S>, slabs: &mut PacketSlabs<S>, start: &Start) {
+    fn descend(&mut self, shooter: &mut Shooter<S>, test: &mut BoxTest<S>, start: &Start) {
         let (simd, origin) = (shooter.simd, shooter.origin);
         for (boxes, count, children) in start.eights() {
             let used = (1 << count) - 1;
             let mut met =
-                if start.few { used } else { slabs.near(simd, origin, &self.rays, boxes, used) };
+                if start.few { used } else { test.near(simd, origin, &self.rays, (boxes, used)) };
             while met != 0 {
                 let lane = met.trailing_zeros() as usize % WIDTH;
                 met &= met - 1;
-                let meeting = slabs.meeting(simd, boxes, lane) & self.active;
+                let meeting = test.meeting(simd, boxes, lane) & self.active;
                 if meeting == 0 {
                     continue;
                 }
@@ -155,7 +77,7 @@ impl<'a, S: Simd> Packet<'a, S> {
                 } else if meeting.count_ones() <= ALONE_BELOW {
                     self.alone_below(shooter, child, meeting);
                 } else {
-                    self.below(shooter, slabs, child);
+                    self.below(shooter, test, child);
                 }
                 if self.active == 0 {
                     return;
@@ -166,11 +88,11 @@ impl<'a, S: Simd> Packet<'a, S> {
 
     /// Goes through what is below a node until every segment is blocked.
     #[inline(always)]
-    fn below(&mut self, shooter: &mut Shooter<S>, slabs: &mut PacketSlabs<S>, mut number: u32) {
+    fn below(&mut self, shooter: &mut Shooter<S>, test: &mut BoxTest<S>, mut number: u32) {
         let (simd, bvh, origin) = (shooter.simd, shooter.bvh, shooter.origin);
         let mut depth = 0;
         let mut node = &bvh.nodes[number as usize];
-        let mut met = slabs.near(simd, origin, &self.rays, &node.boxes, node.used());
+        let mut met = test.near(simd, origin, &self.rays, (&node.boxes, node.used()));
         loop {
             if met == 0 {
                 if depth == 0 {
@@ -183,7 +105,7 @@ impl<'a, S: Simd> Packet<'a, S> {
             }
             let lane = met.trailing_zeros() as usize % WIDTH;
             met &= met - 1;
-            let meeting = slabs.meeting(simd, &node.boxes, lane) & self.active;
+            let meeting = test.meeting(simd, &node.boxes, lane) & self.active;
             if meeting == 0 {
                 continue;
             }
@@ -198,7 +120,7 @@ impl<'a, S: Simd> Packet<'a, S> {
                 }
                 number = node.first_node + lane as u32;
                 node = &bvh.nodes[number as usize];
-                met = slabs.near(simd, origin, &self.rays, &node.boxes, node.used());
+                met = test.near(simd, origin, &self.rays, (&node.boxes, node.used()));
                 continue;
             }
             if self.active == 0 {

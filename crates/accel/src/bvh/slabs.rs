@@ -29,8 +29,8 @@ impl<S: Simd> Slabs<S> {
         }
     }
 
-    /// Per lane, the parameters between which the segment's line is in the box, cut to [0, limit]:
-    /// the lane's box is met if the first does not exceed the second.
+    /// Per lane, the parameter at which the segment enters the box, and which boxes it meets up to
+    /// `limit`, one bit each: those that it does not leave before it enters them.
     ///
     /// A parameter is b · i − o · i for a face at b, an origin o and a reciprocal direction i. With
     /// e = 2⁻²⁴, the roundings of i, of the two products and of the difference shift the face by

@@ -34,7 +34,13 @@ impl<'a> Set<'a> {
     pub(super) fn by_area(self, bins: usize) -> Result<[Self; 2], Self> {
         // A few triangles do not fill many bins.
         let grid = Grid::over(self.boxes, bins.min(self.len().max(2)));
-        let Some(cut) = grid.cheapest(self.boxes) else { return Err(self) };
+        // Most sets are small, and bins cost even where they stay empty.
+        let cut = match grid.bins {
+            ..=8 => grid.cheapest::<8>(self.boxes),
+            9..=16 => grid.cheapest::<16>(self.boxes),
+            _ => grid.cheapest::<MAX_BINS>(self.boxes),
+        };
+        let Some(cut) = cut else { return Err(self) };
         let mut middle = 0;
         for i in 0..self.len() {
             if grid.bin(&self.boxes[i])[cut.axis] < cut.bin {
@@ -130,11 +136,12 @@ impl Grid {
         place.to_array().map(|place| (place as i32 as usize).min(self.bins - 1))
     }
 
-    fn cheapest(&self, boxes: &[Aabb]) -> Option<Cut> {
-        let mut contents = [[Content::EMPTY; MAX_BINS]; 3];
+    /// The cut of least cost; `N` is a power of two and no less than the number of bins.
+    fn cheapest<const N: usize>(&self, boxes: &[Aabb]) -> Option<Cut> {
+        let mut contents = [[Content::EMPTY; N]; 3];
         for bounds in boxes {
             for (axis, bin) in self.bin(bounds).into_iter().enumerate() {
-                let bin = &mut contents[axis][bin & (MAX_BINS - 1)];
+                let bin = &mut contents[axis][bin & (N - 1)];
                 bin.bounds.join(bounds);
                 bin.count += 1;
             }
@@ -145,7 +152,7 @@ impl Grid {
                 continue;
             }
             // Everything at or after each bin, then everything before it.
-            let mut after = [Content::EMPTY; MAX_BINS];
+            let mut after = [Content::EMPTY; N];
             let mut sum = Content::EMPTY;
             for bin in (1..self.bins).rev() {
                 sum.join(&contents[bin]);
