@@ -161,8 +161,8 @@ fn has_area(t: &[DVec3; 3]) -> bool {
     (e / size).cross(f / size) != DVec3::ZERO
 }
 
-/// The greatest power of two that does not exceed a positive finite number.
+/// The greatest power of two that does not exceed a positive number; of numbers below the normal
+/// range, its least. Half its reciprocal is finite and exact, if not always normal.
 fn power_of_two_below(x: f64) -> f64 {
-    let x = x.clamp(1e-300, 1e300); // outside, the reciprocal would leave the normal range
-    f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000) // the exponent alone
+    f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & 0x7ff0_0000_0000_0000) // the exponent alone
 }

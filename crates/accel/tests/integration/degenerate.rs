@@ -1,6 +1,8 @@
 //! Input at the limits: nothing, too much of the same, too thin, too far, too flat.
 
-use accel::{Bvh, BvhConfig, NO_TRIANGLE, Occluder, Octree, OctreeConfig, Segment, rounding_band};
+use accel::{
+    Bvh, BvhConfig, NO_TRIANGLE, Occluder, Octree, OctreeConfig, Segment, Target, rounding_band,
+};
 use glam::{DVec3, dvec3};
 
 use crate::support::all::All;
@@ -283,4 +285,48 @@ fn the_band_is_in_units_of_the_extent() {
     let at = |z: f64| Segment::new(dvec3(102.0, 102.0, 105.0), dvec3(102.0, 102.0, 100.0 + z));
     let band = rounding_band(8.0);
     assert!(!all.occluded(&at(1.01 * band)) && all.occluded(&at(-1.01 * band)));
+}
+
+/// Powers of two change no digit of a coordinate, so no unit that f64 can hold changes an answer.
+/// Coordinates are multiples of 2⁻⁷ up to 2, so 2⁻¹⁰⁶⁷ is the least unit that holds them exactly, and
+/// 2¹⁰²² the greatest.
+#[test]
+fn units_at_the_ends_of_the_range_change_no_answer() {
+    let mut rng = Rng(43);
+    let coarse = |p: DVec3| (p * 128.0).round() / 128.0;
+    let corner = |rng: &mut Rng| coarse(rng.point(DVec3::splat(-1.5), DVec3::splat(1.5)));
+    // Few enough for one block, for one node, and for several.
+    for count in [1, 3, 20, 100] {
+        let scene: Vec<Triangle> =
+            (0..count).map(|_| [corner(&mut rng), corner(&mut rng), corner(&mut rng)]).collect();
+        let from = corner(&mut rng);
+        let targets: Vec<Target> =
+            (0..200).map(|_| Target { point: corner(&mut rng), ignore: NO_TRIANGLE }).collect();
+        let answers = |exponent: i32| {
+            // In two steps, because 2⁻¹⁰⁶⁷ is no power that `exp2` need know.
+            let unit =
+                |p: DVec3| p * 2.0_f64.powi(exponent / 2) * 2.0_f64.powi(exponent - exponent / 2);
+            let scene: Vec<Triangle> = scene.iter().map(|t| t.map(unit)).collect();
+            let targets: Vec<Target> =
+                targets.iter().map(|t| Target { point: unit(t.point), ..*t }).collect();
+            let all = All::build(&scene);
+            let mut batch = vec![false; targets.len()];
+            let occluders: [&dyn Occluder; 3] = [&all.brute, &all.bvh, &all.octree];
+            occluders.map(|occluder| {
+                occluder.occluded_batch(unit(from), NO_TRIANGLE, &targets, &mut batch);
+                for (target, blocked) in targets.iter().zip(&batch) {
+                    let segment = Segment::new(unit(from), target.point);
+                    assert_eq!(all.occluded(&segment), *blocked, "2^{exponent}: {segment:?}");
+                }
+                batch.clone()
+            })
+        };
+        let [expected, ..] = answers(0);
+        assert!(expected.contains(&true) && expected.contains(&false), "{count}");
+        for exponent in [-1067, -1060, -1022, -1000, -997, 900, 996, 997, 1000, 1015, 1021, 1022] {
+            for answers in answers(exponent) {
+                assert_eq!(answers, expected, "{count} triangles in units of 2^{exponent}");
+            }
+        }
+    }
 }
