@@ -330,3 +330,20 @@ fn units_at_the_ends_of_the_range_change_no_answer() {
         }
     }
 }
+
+/// A scene centred at 0, and a segment along the diagonal, on which an empty box of the octree lies
+/// outside of a scene that is held within 1.
+#[test]
+fn nothing_is_met_on_the_diagonal_of_a_huge_scene() {
+    for unit in [1.0, 2.0_f64.powi(1000), 2.0_f64.powi(1010), 2.0_f64.powi(1023)] {
+        let at = |x: f64, y: f64, z: f64| unit * dvec3(x, y, z);
+        let scene = [
+            [at(-1.0, -1.0, 1.0), at(-1.0, 1.0, 1.0), at(-1.0, 0.0, -1.0)],
+            [at(1.0, 1.0, -1.0), at(1.0, -1.0, -1.0), at(1.0, 0.0, 1.0)],
+        ];
+        let (from, to) = (at(-0.75, -0.75, -0.75), at(0.75, 0.75, 0.75));
+        let all = All::build(&scene);
+        assert!(!all.occluded(&Segment::new(from, to)));
+        assert!(all.occluded(&Segment::new(from, at(-1.25, 0.5, 0.75))));
+    }
+}
