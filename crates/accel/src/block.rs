@@ -77,10 +77,10 @@ impl Block {
         })
     }
 
-    /// Whether a triangle that `segment` does not ignore crosses it.
-    #[inline(always)]
-    pub(crate) fn blocks(&self, segment: &LocalSegment) -> bool {
-        self.blocking(segment).is_some()
+    /// Whether a triangle that `segment` does not ignore crosses it, by the exact test alone.
+    pub(crate) fn crosses_any(&self, segment: &LocalSegment) -> bool {
+        let asked = |lane: &usize| !segment.ignores(self.indices[*lane]);
+        (0..LANES).filter(asked).any(|lane| self.crosses(lane, segment))
     }
 
     /// The lane of a triangle that `segment` does not ignore and that crosses it.

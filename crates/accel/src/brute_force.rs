@@ -1,4 +1,5 @@
-//! Every triangle against every segment: the reference the structures are held to.
+//! Every triangle against every segment, by the exact test alone: the reference that structures are
+//! held to.
 
 use glam::DVec3;
 
@@ -14,8 +15,8 @@ pub struct BruteForceConfig {}
 
 /// Tests every triangle.
 ///
-/// It has no traversal that could go wrong, so it says what [`crate::Bvh`] and [`crate::Octree`]
-/// must say. For a handful of triangles it is also the fastest.
+/// It has no traversal that could go wrong and takes no answer from f32, so it says what
+/// [`crate::Bvh`] and [`crate::Octree`] must say.
 #[derive(Clone, Debug)]
 pub struct BruteForce {
     frame: Frame,
@@ -65,6 +66,6 @@ impl BruteForce {
 impl Occluder for BruteForce {
     fn occluded(&self, segment: &Segment) -> bool {
         LocalSegment::between(&self.frame, segment.from, segment.to, segment.ignore)
-            .is_some_and(|local| self.blocks.iter().any(|block| block.blocks(&local)))
+            .is_some_and(|local| self.blocks.iter().any(|block| block.crosses_any(&local)))
     }
 }

@@ -1,10 +1,10 @@
 //! The local frame: scene positions recentred and scaled in f64, then narrowed to f32.
 //!
 //! The centre of the bounds moves to the origin and lengths are multiplied by a power of two, so
-//! that every coordinate of every triangle lies in [-1, 1] and the largest lies in [0.5, 1]. All
-//! tolerances of this crate are therefore plain numbers in this frame, a scene far from the origin
-//! or in odd units loses nothing, and f32 products can neither overflow nor (but for true zeros)
-//! lose their sign. A power of two keeps the scaling free of rounding.
+//! that every coordinate of every triangle lies in [-1, 1] and the largest lies in [0.5, 1] (less in
+//! a scene below the normal range of f64). All tolerances of this crate are therefore plain numbers
+//! in this frame, a scene far from the origin or in odd units loses nothing, and f32 products cannot
+//! overflow. A power of two keeps the scaling free of rounding.
 
 use glam::DVec3;
 
@@ -69,8 +69,10 @@ impl Frame {
         if lo.x > hi.x {
             return (Self { centre: DVec3::ZERO, scale: 1.0, half: DVec3::ZERO }, Vec::new());
         }
-        // Halved before they are combined, because the difference of two huge values overflows.
-        let (centre, half) = (lo * 0.5 + hi * 0.5, hi * 0.5 - lo * 0.5);
+        // Halved before they are combined, because the sum of two huge values overflows.
+        let centre = lo * 0.5 + hi * 0.5;
+        // From the centre as it is rounded, so that no vertex is farther out.
+        let half = (hi - centre).max(centre - lo);
         let scale = 0.5 / power_of_two_below(half.max_element());
         let frame = Self { centre, scale, half: half * scale };
         let mut kept = Vec::with_capacity(triangles.len());

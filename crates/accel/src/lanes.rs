@@ -24,8 +24,8 @@ pub(crate) trait Simd: Copy {
     type F8: Lanes<Token = Self>;
     type F16: Lanes<Token = Self>;
 
-    /// Narrows (p − centre) · scale for the points of sixteen targets, by axis, and says for which of them it is
-    /// within ± limit along every axis, one bit each; not where a coordinate is NaN.
+    /// Narrows (p − centre) · scale for the points of sixteen targets, by axis, and says for which of
+    /// them it is within ± limit along every axis, one bit each; not where a coordinate is NaN.
     fn narrow(
         self,
         targets: &[Target; 16],

@@ -1,11 +1,12 @@
-//! The watertight triangle test (Woop, Benthin & Wald 2013), the only one in this crate.
+//! The watertight triangle test (Woop, Benthin & Wald 2013), which decides every answer: quicker
+//! tests (`block.rs`, `bvh/planes.rs`, `bvh/level.rs`) answer only where it would say the same.
 //!
 //! Vertices are moved so that the segment starts at the origin and sheared so that it runs along
 //! its longest axis; the triangle is then crossed if the origin of the plane is inside the
 //! projected triangle. A vertex is sheared the same way in whichever triangle it occurs, and the
 //! signs of the edge functions are exact for the sheared vertices: f32 rounding keeps the order of
-//! two products, and where they become equal they are computed again in f64, in which products of
-//! f32 numbers are exact. So two triangles never disagree about a shared edge, and edges and
+//! two products, and what it does not rule out is computed again in f64, in which products of f32
+//! numbers are exact. So two triangles never disagree about a shared edge, and edges and
 //! vertices belong to the triangle: nothing leaks between neighbours.
 //!
 //! The parameter of the crossing is computed in f64 from the exact edge functions, so the crossing

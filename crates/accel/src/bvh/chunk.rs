@@ -178,7 +178,7 @@ impl Chunk {
         if count < 2 || !self.is_scattered() {
             return;
         }
-        // About as many cells on the cube, 6 · 4ᵇ for b bits, as there are packets.
+        // Several cells on the cube, 6 · 4ᵇ for b bits, to a packet.
         let bits = if count < 16 {
             2
         } else if count < 64 {

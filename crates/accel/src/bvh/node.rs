@@ -44,7 +44,8 @@ impl Boxes {
 /// Up to eight children with their boxes. Four cache lines.
 ///
 /// Nodes come first, then blocks; each kind lies side by side in memory, so that a child's place
-/// follows from its lane without another look at memory (example `mrays`: singles 1.02 to 1.07, random segments among a million triangles 1.14).
+/// follows from its lane without another look at memory (example `mrays`: singles 1.02 to 1.07,
+/// random segments among a million triangles 1.14).
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(super) struct Node {

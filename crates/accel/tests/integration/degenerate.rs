@@ -331,6 +331,27 @@ fn units_at_the_ends_of_the_range_change_no_answer() {
     }
 }
 
+/// Where f64 numbers are 1 apart, the middle of a scene of odd width is rounded; its outermost walls
+/// still block.
+#[test]
+fn a_scene_a_few_roundings_wide_keeps_its_walls() {
+    let o = 2.0_f64.powi(52);
+    for shift in [0.0, 1.0] {
+        for wide in 3..64 {
+            let (o, wide) = (o + shift, f64::from(wide));
+            let wall = |x: f64| [dvec3(x, o, o), dvec3(x, o + wide, o), dvec3(x, o, o + wide)];
+            let all = All::build(&[wall(o), wall(o + wide)]);
+            let inside = 1.0;
+            let at = |x: f64| dvec3(x, o + inside, o + inside);
+            for (x, other) in [(o, 1), (o + wide, 0)] {
+                let segment =
+                    Segment { from: at(x - 2.0), to: at(x + 2.0), ignore: [other, NO_TRIANGLE] };
+                assert!(all.occluded(&segment), "{wide} wide, wall at {x}");
+            }
+        }
+    }
+}
+
 /// A scene centred at 0, and a segment along the diagonal, on which an empty box of the octree lies
 /// outside of a scene that is held within 1.
 #[test]
