@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "xtask is a terminal program")]
 
+mod bench;
 mod ci;
 mod figure;
 mod numerics;
@@ -37,6 +38,9 @@ enum Task {
     /// Measure error against time on the scenes with a reference, and draw it into
     /// docs/precision.
     Precision(precision::Arguments),
+    /// Measure how the run time falls with the number of threads, and draw it into
+    /// docs/performance.
+    Bench(bench::Arguments),
     /// Measure estimators and sweeps, and draw the figures of docs/numerics.md.
     Numerics(numerics::Arguments),
 }
@@ -49,6 +53,7 @@ fn main() -> ExitCode {
         Task::Scenes { check: true } => scenes::check(&root.join("scenes")),
         Task::Scenes { check: false } => scenes::write(&root.join("scenes")),
         Task::Precision(arguments) => precision::run(&root, &arguments),
+        Task::Bench(arguments) => bench::run(&root, &arguments),
         Task::Numerics(arguments) => numerics::run(&root, &arguments),
     };
     match result {

@@ -2,7 +2,10 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod hand_out;
 mod pool;
+mod schedule;
 
-pub use error::Error;
+pub use error::{Error, ParseLoopError};
 pub use pool::Pool;
+pub use schedule::Loop;

@@ -67,7 +67,9 @@ impl Figure {
         let points = || self.curves.iter().flat_map(|c| &c.points).filter(|p| p.has_a_place());
         let whiskers = points().filter_map(|p| p.whisker).flat_map(|(a, b)| [a, b]);
         let x = Scale::over(points().map(|p| p.x).chain(whiskers));
-        let y = Scale::over(points().map(|p| p.y).chain(self.levels.iter().map(|l| l.y)));
+        let rises = points().filter_map(|p| p.rise).flat_map(|(a, b)| [a, b]);
+        let levels = self.levels.iter().map(|l| l.y);
+        let y = Scale::over(points().map(|p| p.y).chain(rises).chain(levels));
         let chart = axes(&below, (&self.x, &x), (&self.y, &y))?;
         let place = |x: f64, y: f64| chart.plotting_area().map_coordinate(&(x, y));
         for level in self.levels.iter().filter(|l| l.y > 0.0 && l.y.is_finite()) {
@@ -77,9 +79,12 @@ impl Figure {
             let placed: Vec<_> = curve.points.iter().filter(|p| p.has_a_place()).collect();
             let pixels: Vec<_> = placed.iter().map(|p| place(p.x, p.y)).collect();
             line(canvas, curve.look, &pixels)?;
-            for (Point { whisker, y, .. }, at) in placed.iter().zip(pixels) {
+            for (Point { x, y, whisker, rise }, at) in placed.iter().zip(pixels) {
                 if let Some((low, high)) = *whisker {
                     bar(canvas, curve.look, place(low, *y), place(high, *y))?;
+                }
+                if let Some((low, high)) = *rise {
+                    bar(canvas, curve.look, place(*x, low), place(*x, high))?;
                 }
                 marker(canvas, curve.look, at)?;
             }
@@ -146,7 +151,9 @@ fn line(canvas: &Canvas, look: Look, points: &[Pixel]) -> Drawn {
 
 /// A bar from `low` to `high` with a stop at either end.
 fn bar(canvas: &Canvas, look: Look, low: Pixel, high: Pixel) -> Drawn {
-    let stop = |(x, y): Pixel| [(x, y - MARKER), (x, y + MARKER)];
+    // The stops stand across the bar.
+    let (across, up) = if low.1 == high.1 { (0, MARKER) } else { (MARKER, 0) };
+    let stop = |(x, y): Pixel| [(x - across, y - up), (x + across, y + up)];
     for ends in [[low, high], stop(low), stop(high)] {
         said(canvas.draw(&PathElement::new(ends, style(look))))?;
     }
@@ -204,7 +211,7 @@ mod tests {
         let look = Look::new(color::BLUE, Stroke::Solid, Marker::Dot);
         let points = [(0.1, 0.02), (1.0, 0.005), (20.0, 0.0)];
         let whisker = Some((0.05, 0.4));
-        let points = points.map(|(x, y)| Point { x, y, whisker }).to_vec();
+        let points = points.map(|(x, y)| Point { x, y, whisker, rise: None }).to_vec();
         Figure {
             title: "Error & time".into(),
             notes: vec!["one <note>".into()],
@@ -252,6 +259,15 @@ mod tests {
         assert!(at[0].0 < at[1].0, "{at:?}");
         // SVG counts from the top.
         assert!(at[0].1 < at[1].1, "{at:?}");
+    }
+
+    /// A bar along y widens its axis, as one along x does: from 0.5 % to 2 % without it.
+    #[test]
+    fn a_bar_along_y_has_its_place() {
+        let mut figure = figure();
+        figure.curves[0].points[0].rise = Some((0.002, 0.06));
+        let svg = figure.svg().unwrap();
+        assert!(svg.contains(">\n5 %\n<"), "{svg}");
     }
 
     #[test]

@@ -39,6 +39,8 @@ pub(crate) struct Point {
     pub(crate) y: f64,
     /// Ends of the whisker along x.
     pub(crate) whisker: Option<(f64, f64)>,
+    /// Ends of the whisker along y.
+    pub(crate) rise: Option<(f64, f64)>,
 }
 
 /// A horizontal line over the whole width.
@@ -67,7 +69,7 @@ impl Entry {
 
 impl Point {
     pub(crate) fn at(x: f64, y: f64) -> Self {
-        Self { x, y, whisker: None }
+        Self { x, y, whisker: None, rise: None }
     }
 
     fn has_a_place(self) -> bool {

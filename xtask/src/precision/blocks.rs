@@ -4,12 +4,20 @@
 ///
 /// # Errors
 /// Where the block's comments are missing, or its end comes first.
-pub(super) fn replace(page: &str, name: &str, text: &str) -> Result<String, String> {
+pub(crate) fn replace(page: &str, name: &str, text: &str) -> Result<String, String> {
     let (begin, end) = (format!("<!-- begin: {name} -->"), format!("<!-- end: {name} -->"));
     let missing = || format!("the page has no `{begin}` with `{end}` after it");
     let (before, rest) = page.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
     Ok(format!("{before}{begin}\n\n{}\n\n{end}{after}", text.trim()))
+}
+
+/// A Markdown table.
+pub(crate) fn table(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let mut lines = vec![format!("| {} |", header.join(" | "))];
+    lines.push(format!("|{}", "---|".repeat(header.len())));
+    lines.extend(rows.map(|cells| format!("| {} |", cells.join(" | "))));
+    lines.join("\n")
 }
 
 #[cfg(test)]

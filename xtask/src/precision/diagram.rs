@@ -81,7 +81,7 @@ fn add(figure: &mut Figure, series: &Series, look: Look) {
         let point = |solve: &Solve| {
             let time = solve.time();
             let whisker = (whiskers && time.least < time.most).then_some((time.least, time.most));
-            Some(Point { x: time.median, y: error(solve)?, whisker })
+            Some(Point { x: time.median, y: error(solve)?, whisker, rise: None })
         };
         Curve { look, points: series.solves.iter().filter_map(point).collect() }
     };
@@ -149,7 +149,7 @@ mod tests {
         let blue = |c: &&Curve| c.look.color == color::BLUE && c.look.stroke == Stroke::Solid;
         let refined = figure.curves.iter().find(blue).unwrap();
         // Three runs of 0.2, 0.4 and 0.3 s; E1 of 3 %.
-        let expected = Point { x: 0.3, y: 0.03, whisker: Some((0.2, 0.4)) };
+        let expected = Point { x: 0.3, y: 0.03, whisker: Some((0.2, 0.4)), rise: None };
         assert_eq!(refined.points[0], expected);
         // One run has no ends.
         assert_eq!(refined.points[1], Point::at(1.5, 0.008));

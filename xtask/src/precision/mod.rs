@@ -4,14 +4,14 @@
 //! release program as a user starts it. What was measured is kept as JSON in `docs/precision`;
 //! the diagrams beside it and the tables of `docs/precision.md` are drawn from that alone.
 
-mod blocks;
+pub(crate) mod blocks;
 mod diagram;
 mod measurement;
-mod numbers;
+pub(crate) mod numbers;
 mod page;
 mod plan;
 mod program;
-mod statistics;
+pub(crate) mod statistics;
 mod subject;
 
 #[cfg(test)]
@@ -22,7 +22,7 @@ use std::path::Path;
 
 pub(crate) use measurement::{Errors, Machine, Measurement, Stated};
 use plan::Plan;
-use program::Program;
+pub(crate) use program::Program;
 use subject::Subject;
 
 /// Where measurements and diagrams are kept, and the page that shows them.
@@ -60,7 +60,7 @@ pub(crate) fn run(root: &Path, arguments: &Arguments) -> Result<(), String> {
     if subjects.is_empty() {
         return Ok(());
     }
-    let program = Program::build(root)?;
+    let program = Program::build(root, "precision")?;
     let plan = if arguments.quick { Plan::quick() } else { Plan::full() };
     let folder = root.join(if arguments.quick { QUICK_FOLDER } else { FOLDER });
     for subject in subjects {

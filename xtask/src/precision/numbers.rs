@@ -1,5 +1,7 @@
 //! Numbers as text: two or three digits, which is what measurements carry.
 
+use super::statistics::Spread;
+
 /// `1.8 %`, `0.012 %`: two digits of a share.
 pub(crate) fn percent(share: f64) -> String {
     format!("{} %", digits(share * 100.0, 2))
@@ -14,6 +16,16 @@ pub(crate) fn goal(share: f64) -> String {
 /// `4.25 s`, `0.312 s`, `85.2 s`.
 pub(crate) fn seconds(time: f64) -> String {
     format!("{} s", digits(time, 3))
+}
+
+/// `0.300 s (0.200–0.400)`: the median of several times, with both ends where there is more than
+/// one.
+pub(crate) fn times(readings: &[f64]) -> String {
+    let Spread { median, least, most } = Spread::of(readings);
+    if readings.len() < 2 {
+        return seconds(median);
+    }
+    format!("{} ({}–{})", seconds(median), digits(least, 3), digits(most, 3))
 }
 
 /// `950`, `4,000`, `4.79 M`.
@@ -69,6 +81,12 @@ mod tests {
     fn times_have_three_digits() {
         let texts = [0.00417, 0.99961, 1.0, 12.34, 301.7].map(seconds);
         assert_eq!(texts, ["0.00417 s", "1.00 s", "1.00 s", "12.3 s", "302 s"]);
+    }
+
+    #[test]
+    fn several_times_have_their_ends() {
+        assert_eq!(times(&[0.2, 0.4, 0.3]), "0.300 s (0.200–0.400)");
+        assert_eq!(times(&[1.5]), "1.50 s");
     }
 
     #[test]

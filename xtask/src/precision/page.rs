@@ -1,9 +1,9 @@
 //! The tables of docs/precision.md.
 
-use super::blocks;
+use super::blocks::{self, table};
 use super::diagram;
 use super::measurement::{Measurement, Method, Solve};
-use super::numbers::{count, digits, goal, percent, seconds};
+use super::numbers::{count, digits, goal, percent, seconds, times};
 use super::statistics::{Reached, time_to};
 
 /// The errors whose time is given, in E1.
@@ -63,7 +63,7 @@ fn refinement_table(measurement: &Measurement) -> String {
         let stated = solve.stated.as_ref();
         vec![
             format!("{}{}", goal(solve.goal), limit.unwrap_or_default()),
-            time(solve),
+            times(&solve.seconds),
             elements,
             segments,
             form_factors,
@@ -97,7 +97,7 @@ fn mesh_table(measurement: &Measurement) -> String {
         vec![
             diagram::name(method),
             format!("{:e}", solve.goal),
-            time(solve),
+            times(&solve.seconds),
             elements,
             segments,
             form_factors,
@@ -181,26 +181,8 @@ fn work(solve: &Solve) -> [String; 4] {
     [work.elements, work.segments, work.form_factors, work.shots].map(count)
 }
 
-/// The median, and both ends where there is more than one run.
-fn time(solve: &Solve) -> String {
-    let spread = solve.time();
-    if solve.seconds.len() < 2 {
-        return seconds(spread.median);
-    }
-    let [least, most] = [spread.least, spread.most].map(|t| digits(t, 3));
-    format!("{} ({least}–{most})", seconds(spread.median))
-}
-
 fn known(value: Option<f64>, text: impl Fn(f64) -> String) -> String {
     value.map_or_else(|| "unknown".into(), text)
-}
-
-/// A Markdown table.
-fn table(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let mut lines = vec![format!("| {} |", header.join(" | "))];
-    lines.push(format!("|{}", "---|".repeat(header.len())));
-    lines.extend(rows.map(|cells| format!("| {} |", cells.join(" | "))));
-    lines.join("\n")
 }
 
 #[cfg(test)]

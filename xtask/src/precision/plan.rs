@@ -73,7 +73,7 @@ impl Plan {
         let mut done: Vec<(Job, Solve)> = Vec::new();
         let (mut reference_error, mut used_threads) = (0.0, 0);
         for job in self.jobs() {
-            let said = program.solve(subject, &self.settings(job, threads))?;
+            let said = self.solve(program, subject, job, threads)?;
             let compared = program.compare(subject)?;
             println!(
                 "{}: {} to {}: {}, E1 {}",
@@ -95,7 +95,7 @@ impl Plan {
                 if round >= LONG_RUNS && solve.time().median > LONG {
                     continue;
                 }
-                let said = program.solve(subject, &self.settings(*job, threads))?;
+                let said = self.solve(program, subject, *job, threads)?;
                 // The clock decides where a limit ends the work; nothing else may depend on it.
                 if said.work != solve.work && solve.work.limit.is_none() {
                     return Err(format!(
@@ -126,7 +126,20 @@ impl Plan {
         refine.chain(meshes).chain(occluders).collect()
     }
 
-    /// The command line of a job, after the scene.
+    /// Runs one job.
+    fn solve(
+        &self,
+        program: &Program,
+        subject: Subject,
+        job: Job,
+        threads: usize,
+    ) -> Result<Said, String> {
+        let mut settings = vec!["--sides".to_owned(), subject.sides().to_owned()];
+        settings.extend(self.settings(job, threads));
+        program.solve(&subject.scene(), &settings)
+    }
+
+    /// The command line of a job, after the scene and its sides.
     fn settings(&self, Job { method, goal }: Job, threads: usize) -> Vec<String> {
         let how = match method {
             Method::Refinement => format!("--error {goal} --max-time {}s", self.most_seconds),

@@ -14,7 +14,7 @@ use super::subject::Subject;
 const SCHEMA: u64 = 2;
 
 /// The built program and a folder for what it writes.
-pub(super) struct Program {
+pub(crate) struct Program {
     root: PathBuf,
     path: PathBuf,
     scratch: PathBuf,
@@ -22,11 +22,11 @@ pub(super) struct Program {
 
 /// What one solve says of itself.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Said {
-    pub(super) threads: usize,
+pub(crate) struct Said {
+    pub(crate) threads: usize,
     /// Building the occluder and solving.
-    pub(super) seconds: f64,
-    pub(super) work: Work,
+    pub(crate) seconds: f64,
+    pub(crate) work: Work,
     pub(super) stated: Option<Stated>,
 }
 
@@ -39,8 +39,9 @@ pub(super) struct Compared {
 }
 
 impl Program {
-    /// Builds the program with optimisation.
-    pub(super) fn build(root: &Path) -> Result<Self, String> {
+    /// Builds the program with optimisation. What it writes goes into a folder of this name
+    /// beside it, so that two tasks may run at once.
+    pub(crate) fn build(root: &Path, scratch: &str) -> Result<Self, String> {
         let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
         let words = "build --release --package cli --message-format json-render-diagnostics";
         println!("$ cargo {words}");
@@ -53,16 +54,17 @@ impl Program {
         }
         let path = executable(&String::from_utf8_lossy(&built.stdout))
             .ok_or_else(|| format!("cargo {words}: names no program `radiosity`"))?;
-        let scratch = path.with_file_name("precision");
+        let scratch = path.with_file_name(scratch);
         fs::create_dir_all(&scratch).map_err(|e| format!("{}: {e}", scratch.display()))?;
         Ok(Self { root: root.to_path_buf(), path, scratch })
     }
 
-    /// Solves a scene with these settings, and keeps the solution for [`Self::compare`].
-    pub(super) fn solve(&self, subject: Subject, settings: &[String]) -> Result<Said, String> {
-        let (solution, report) = (self.solution(), self.scratch.join("solve.json"));
+    /// Solves a scene, given by its path from the root, with these settings, and keeps the
+    /// solution for [`Self::solution`] and [`Self::compare`].
+    pub(crate) fn solve(&self, scene: &str, settings: &[String]) -> Result<Said, String> {
+        let (solution, report) = (self.solution_path(), self.scratch.join("solve.json"));
         let mut command = Command::new(&self.path);
-        command.arg("solve").arg(subject.scene()).args(["--sides", subject.sides()]).args(settings);
+        command.arg("solve").arg(scene).args(settings);
         command.arg("-o").arg(solution).arg("--report").arg(&report);
         self.output(command)?;
         let failed = |e: String| format!("{}: {e}", report.display());
@@ -73,11 +75,17 @@ impl Program {
     /// Holds the last solution against the subject's reference.
     pub(super) fn compare(&self, subject: Subject) -> Result<Compared, String> {
         let mut command = Command::new(&self.path);
-        command.arg("compare").arg(self.solution()).arg(subject.reference());
+        command.arg("compare").arg(self.solution_path()).arg(subject.reference());
         compared(&self.output(command)?)
     }
 
-    fn solution(&self) -> PathBuf {
+    /// The text of the last solution.
+    pub(crate) fn solution(&self) -> Result<String, String> {
+        let path = self.solution_path();
+        fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
+    }
+
+    fn solution_path(&self) -> PathBuf {
         self.scratch.join("solve.csv")
     }
 

@@ -13,7 +13,7 @@ impl Spread {
     ///
     /// # Panics
     /// Without a reading there is no spread.
-    pub(super) fn of(readings: &[f64]) -> Self {
+    pub(crate) fn of(readings: &[f64]) -> Self {
         let mut sorted = readings.to_vec();
         sorted.sort_by(f64::total_cmp);
         let (least, most) = (sorted[0], sorted[sorted.len() - 1]);

@@ -16,9 +16,14 @@ use scene::Rgb;
 use crate::config::Exchange;
 use crate::mesh::{Element, Mesh, Patch, ReceiverPoint, bounding};
 
-/// An element is near when the gap between its bounding sphere and the shooter's is below
-/// this many of its own radii.
-const NEAR_RADII: f64 = 1.0;
+/// An element is near when the gap between its bounding sphere and the shooter is below this many
+/// of its own radii.
+const NEAR_RADII: f64 = 4.0;
+
+/// A near element is quartered until what a part may receive is at most this share of what the
+/// whole scene receives: small elements need fewer parts. Ten times more care changed no digit of
+/// the errors in docs/design.md.
+const PART_SHARE: f64 = 1e-3;
 
 /// A near element is quartered at most this often: 64 parts of six points.
 const MOST_QUARTERINGS: u32 = 3;
@@ -53,19 +58,25 @@ impl Near {
     /// Finds the elements near a shooter and places points in them.
     ///
     /// `light` is the shooter's unshot exitance over what [`bright`](crate::ShootingConfig::bright)
-    /// asks for: at 1 and below, nothing is near.
+    /// asks for: at 1 and below, nothing is near, and nothing is looked for.
     pub(super) fn find(&mut self, mesh: &Mesh, shooter: &Patch, exchange: Exchange, light: f64) {
         self.elements.clear();
         self.points.clear();
         self.weights.clear();
+        self.arriving.clear();
+        if light <= 1.0 {
+            return;
+        }
         let elements =
             &mesh.elements[shooter.elements.start as usize..shooter.elements.end as usize];
         let source = Source {
             patch: shooter,
+            corners: mesh.corners(mesh.nodes[shooter.node as usize].vertices),
             normal: mesh.roots[mesh.nodes[shooter.node as usize].root as usize].normal,
             area: elements.iter().map(|e| e.area).sum(),
             exchange,
             light,
+            scene_area: mesh.elements.iter().map(|e| e.area).sum(),
         };
         for patch in &mesh.patches {
             // An element lies inside its patch's sphere, and its radius is at most the patch's.
@@ -101,7 +112,7 @@ impl Near {
         let element = &mesh.elements[id as usize];
         let corners = mesh.corners(element.vertices);
         let (centroid, radius) = bounding(corners);
-        let gap = centroid.distance(source.patch.centroid) - radius - source.patch.radius;
+        let gap = distance_to(source.corners, centroid) - radius;
         let in_front = |c: &DVec3| source.normal.dot(*c - source.patch.centroid) > 0.0;
         let facing = source.exchange == Exchange::Paired || corners.iter().any(in_front);
         let light = source.light_across(gap);
@@ -109,7 +120,7 @@ impl Near {
             return;
         }
         let first = self.points.len() as u32;
-        self.quarter(mesh, element, corners, 1.0, source.quarterings(radius, gap, light));
+        self.quarter(mesh, element, corners, 1.0, source.quarterings(element.area, radius, gap, light));
         self.elements.push(NearElement { element: id, first, last: self.points.len() as u32 });
     }
 
@@ -139,10 +150,13 @@ impl Near {
 /// The shooter, as near elements see it.
 struct Source<'a> {
     patch: &'a Patch,
+    corners: [DVec3; 3],
     normal: DVec3,
     area: f64,
     exchange: Exchange,
     light: f64,
+    /// Area of all elements.
+    scene_area: f64,
 }
 
 impl Source<'_> {
@@ -153,19 +167,50 @@ impl Source<'_> {
         self.light * form_factor
     }
 
-    /// How often to quarter an element of this radius.
-    fn quarterings(&self, radius: f64, gap: f64, light: f64) -> u32 {
+    /// How often to quarter an element of this area and radius.
+    fn quarterings(&self, area: f64, radius: f64, gap: f64, light: f64) -> u32 {
         // A shooter smaller than the element lights a spot about as wide as the gap or itself.
         let spot = (radius / gap.max(self.patch.radius)).log2();
         // Each quartering divides what one part brings by 4.
-        let parts = light.log2() / 2.0;
+        let parts = (light * area / (PART_SHARE * self.scene_area)).log2() / 2.0;
         spot.max(parts).ceil().clamp(0.0, f64::from(MOST_QUARTERINGS)) as u32
     }
+}
+
+/// The distance of a place from a triangle.
+fn distance_to(corners: [DVec3; 3], place: DVec3) -> f64 {
+    let [a, b, c] = corners;
+    let normal = (b - a).cross(c - a);
+    let edges = [(a, b), (b, c), (c, a)];
+    let above = edges.iter().all(|(p, q)| (*q - *p).cross(place - *p).dot(normal) >= 0.0);
+    if above && normal != DVec3::ZERO {
+        return (place - a).dot(normal).abs() / normal.length();
+    }
+    let from_edge = |(p, q): &(DVec3, DVec3)| {
+        let way = *q - *p;
+        let along = ((place - *p).dot(way) / way.length_squared()).clamp(0.0, 1.0);
+        place.distance(*p + way * along)
+    };
+    edges.iter().map(from_edge).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn distances_from_a_triangle() {
+        // By hand: above it, beside an edge, beyond a corner.
+        let corners = [DVec3::ZERO, DVec3::X * 3.0, DVec3::Y * 3.0];
+        for (place, distance) in [
+            (DVec3::new(1.0, 1.0, -2.0), 2.0),
+            (DVec3::new(1.0, -3.0, 4.0), 5.0),
+            (DVec3::new(-2.0, -2.0, 1.0), 3.0),
+            (DVec3::new(3.0, 3.0, 0.0), 4.5f64.sqrt()),
+        ] {
+            assert!((distance_to(corners, place) - distance).abs() < 1e-14, "{place}");
+        }
+    }
 
     #[test]
     fn six_points_integrate_quartics() {
