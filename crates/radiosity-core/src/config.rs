@@ -30,18 +30,19 @@ pub struct MeshConfig {
 }
 
 impl MeshConfig {
-    /// About `elements` elements, in patches whose number grows with the square root of
-    /// it, so that a sweep of shots costs `elements`^1.5 rather than its square.
+    /// About `elements` elements, in patches whose number grows with the fourth root of it, so
+    /// that a sweep of shots costs `elements`^1.25 rather than its square.
     #[must_use]
     pub fn with_elements(elements: usize) -> Self {
         Self { elements, patch_elements: patch_size(elements), cut: true, graded: true }
     }
 }
 
-/// Patches of at most 20 elements at 10,000 elements, growing with the square root.
+/// Patches of at most 20 elements at 4,000 elements, growing with the power 3/4: the larger, the
+/// fewer shots, until they cost more in pieces for near receivers (docs/design.md).
 fn patch_size(elements: usize) -> usize {
-    let size = 20.0 * (elements as f64 / 10_000.0).sqrt();
-    (size.round() as usize).clamp(4, 256)
+    let size = 20.0 * (elements as f64 / 4_000.0).powf(0.75);
+    (size.round() as usize).clamp(4, 1024)
 }
 
 /// When to stop shooting.
