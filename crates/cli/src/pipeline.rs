@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use accel::{Bvh, BvhConfig, Nothing, Occluder, Octree, OctreeConfig};
 use radiosity_core::{
-    Asked, Census, Control, Executor, LevelReport, Mesh, MeshConfig, Observer, Probe, Refined,
-    ShootingConfig, Statement, StepReport, StopReason, refine,
+    Asked, Census, Control, Executor, LevelReport, Mesh, MeshConfig, Observer, Probe, RefineConfig,
+    Refined, ShootingConfig, Statement, StepReport, StopReason, refine,
 };
 use radiosity_par::Pool;
 use scene::Scene;
@@ -101,11 +101,13 @@ pub(crate) fn solve(
     };
     let (bvh, occluder) = (&prepared.bvh, prepared.occluder());
     let pool = &prepared.pool;
-    let refined = refine(scene, bvh, occluder, pool, config, asked, most, probes, &mut watch);
+    let refining = RefineConfig { most_elements: most, ..RefineConfig::until(asked) };
+    let refined = refine(scene, bvh, occluder, pool, config, refining, probes, &mut watch);
     refuse_endless(refined.reason)?;
     let limit = match refined.reached {
         radiosity_core::Reached::Stopped => Some("--max-time"),
         radiosity_core::Reached::ElementLimit => Some(which),
+        radiosity_core::Reached::SizeLimit => Some("--min-area or --max-depth"),
         _ => None,
     };
     let seconds = watch.clock.elapsed().as_secs_f64();

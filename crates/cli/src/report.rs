@@ -182,7 +182,7 @@ fn reached(reached: Reached) -> &'static str {
     match reached {
         Reached::Error => "error",
         Reached::Elements => "elements",
-        Reached::ElementLimit | Reached::Stopped => "limit",
+        Reached::ElementLimit | Reached::SizeLimit | Reached::Stopped => "limit",
         Reached::Shooting => "shooting",
     }
 }

@@ -14,7 +14,7 @@ pub enum Exchange {
 }
 
 /// How a scene becomes elements and patches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshConfig {
     /// Number of elements to split into; the scene's own triangles, in the pieces that
     /// they are cut into, are the least.
@@ -27,6 +27,11 @@ pub struct MeshConfig {
     /// Whether elements are smaller round lamps that are small beside them. The mesh then depends
     /// on the lamps' powers, and light is the sum of that of single lamps but for its error.
     pub graded: bool,
+    /// An element of this area or less is split only where a neighbour's edge is halved; in the
+    /// scene's unit, squared. 0: no element is too small.
+    pub least_area: f64,
+    /// So is one this many halvings below its input triangle.
+    pub most_depth: u32,
 }
 
 impl MeshConfig {
@@ -34,7 +39,14 @@ impl MeshConfig {
     /// that a sweep of shots costs `elements`^1.25 rather than its square.
     #[must_use]
     pub fn with_elements(elements: usize) -> Self {
-        Self { elements, patch_elements: patch_size(elements), cut: true, graded: true }
+        Self {
+            elements,
+            patch_elements: patch_size(elements),
+            cut: true,
+            graded: true,
+            least_area: 0.0,
+            most_depth: u32::MAX,
+        }
     }
 }
 
@@ -43,6 +55,17 @@ impl MeshConfig {
 fn patch_size(elements: usize) -> usize {
     let size = 20.0 * (elements as f64 / 4_000.0).powf(0.75);
     (size.round() as usize).clamp(4, 1024)
+}
+
+/// How elements are split where the light asks for smaller ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Split {
+    /// Longest edges are halved, in all elements that share them: angles stay above half of what
+    /// they were, and no vertex lies inside a neighbour's edge.
+    #[default]
+    LongestEdge,
+    /// Nowhere: each mesh has elements of one size.
+    None,
 }
 
 /// When to stop shooting.

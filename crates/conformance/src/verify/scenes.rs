@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use accel::{Bvh, BvhConfig, Octree, OctreeConfig};
-use radiosity_core::{Asked, Executor, Refined, Sequential, ShootingConfig, refine};
+use radiosity_core::{Asked, Executor, RefineConfig, Refined, Sequential, ShootingConfig, refine};
 use radiosity_par::Pool;
 use scene::Scene;
 
@@ -52,12 +52,12 @@ fn run<E: Executor>(scene: &Scene, asked: Asked, executor: &E, octree: bool) -> 
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
     let bvh = Bvh::build(&triangles, &BvhConfig::DEFAULT);
     let config = ShootingConfig::until(if scene.triangles().len() <= SMALL { UNSHOT } else { 0.5 });
-    let most = usize::MAX;
+    let refining = RefineConfig::until(asked);
     if octree {
         let octree = Octree::build(&triangles, &OctreeConfig::DEFAULT);
-        refine(scene, &bvh, &octree, executor, config, asked, most, &[], &mut ())
+        refine(scene, &bvh, &octree, executor, config, refining, &[], &mut ())
     } else {
-        refine(scene, &bvh, &bvh, executor, config, asked, most, &[], &mut ())
+        refine(scene, &bvh, &bvh, executor, config, refining, &[], &mut ())
     }
 }
 

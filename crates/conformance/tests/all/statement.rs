@@ -6,7 +6,7 @@ use std::path::Path;
 use accel::{Bvh, BvhConfig};
 use conformance::shared;
 use output::csv;
-use radiosity_core::{Asked, Exchange, Probe, Refined, ShootingConfig, refine};
+use radiosity_core::{Asked, Exchange, Probe, RefineConfig, Refined, ShootingConfig, refine};
 use radiosity_par::Pool;
 use scene::{Scene, TriangleId};
 use scene_import::Options;
@@ -30,8 +30,8 @@ fn run(scene: &Scene, exchange: Exchange, target: f64, probes: &[Probe]) -> Refi
     let bvh = Bvh::build(&triangles, &BvhConfig::DEFAULT);
     let config = ShootingConfig { exchange, ..ShootingConfig::until(1e-3) };
     let pool = Pool::new(0).unwrap();
-    let (asked, most) = (Asked::Error(target), 1 << 20);
-    refine(scene, &bvh, &bvh, &pool, config, asked, most, probes, &mut ())
+    let refining = RefineConfig::until(Asked::Error(target));
+    refine(scene, &bvh, &bvh, &pool, config, refining, probes, &mut ())
 }
 
 /// The true error lies below the stated one, which is no more than five times as large.

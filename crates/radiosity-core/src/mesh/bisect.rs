@@ -4,6 +4,8 @@
 //! leaves. Then the longest edges that lead to it are halved first, from the far end of the chain
 //! (Rivara 1997, "New longest-edge algorithms for the refinement and/or improvement of
 //! unstructured triangulations"): every edge is the longest of all its leaves when it is halved.
+//!
+//! A forest may grow again: where light asks for more elements, edges count for longer.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
@@ -14,33 +16,68 @@ use scene::VertexId;
 use super::Node;
 use super::cut::{Edge, edge};
 use super::grade::Grade;
+use super::triangle_area;
 
-/// Grows the forest over the given roots to about `elements` leaves: stops when the next
-/// edge would leave more than that. Halves of barriers are barriers.
-pub(super) fn forest(
-    vertices: Vec<DVec3>,
-    roots: Vec<[VertexId; 3]>,
-    barriers: HashSet<Edge>,
-    grade: &Grade,
-    elements: usize,
-) -> (Vec<DVec3>, Vec<Node>, HashSet<Edge>) {
-    let mut grower = Grower::new(vertices, roots, barriers, grade);
-    while grower.leaves < elements && grower.halve_longest(elements) {}
-    (grower.vertices, grower.nodes, grower.barriers)
+/// The nodes of a mesh, with what growing them needs.
+pub(super) struct Forest {
+    pub(super) vertices: Vec<DVec3>,
+    pub(super) nodes: Vec<Node>,
+    /// Edges along contacts; halves of barriers are barriers.
+    pub(super) barriers: HashSet<Edge>,
+}
+
+/// Where a forest grows, and where it does not.
+pub(super) struct Plan<'a> {
+    pub(super) grade: &'a Grade,
+    /// How many elements each leaf's place deserves beside others, by element; all alike if
+    /// absent.
+    pub(super) density: Option<&'a [f64]>,
+    /// A leaf of this area or less is halved only for its neighbours' sake.
+    pub(super) least_area: f64,
+    /// So is one this many halvings below its root.
+    pub(super) most_depth: u32,
+}
+
+impl Forest {
+    /// A forest of roots alone.
+    pub(super) fn of_roots(
+        vertices: Vec<DVec3>,
+        roots: Vec<[VertexId; 3]>,
+        barriers: HashSet<Edge>,
+    ) -> Self {
+        let node = |(vertices, root)| Node { vertices, children: None, root, elements: 0..0 };
+        let nodes = roots.into_iter().zip(0..).map(node).collect();
+        Self { vertices, nodes, barriers }
+    }
+
+    /// Grows to about `elements` leaves: stops when the next edge would leave more than that.
+    pub(super) fn grow(self, plan: &Plan, elements: usize) -> Self {
+        let mut grower = Grower::new(self, plan);
+        while grower.leaves < elements && grower.halve_longest(elements) {}
+        Self { vertices: grower.vertices, nodes: grower.nodes, barriers: grower.barriers }
+    }
 }
 
 struct Grower<'a> {
-    grade: &'a Grade,
+    plan: &'a Plan<'a>,
     vertices: Vec<DVec3>,
     nodes: Vec<Node>,
+    /// Of each node.
+    state: Vec<Growth>,
     leaves: usize,
     /// The leaves at each edge of the present mesh; at most two unless surfaces meet there.
     at_edge: HashMap<Edge, Vec<u32>>,
-    /// Edges by what they count for, the longest first; ties go to the smallest vertices.
-    /// Halved ones stay until their turn comes.
+    /// Edges by what they count for, the longest first; ties go to the smallest vertices. An edge
+    /// between leaves of two densities is here twice. Halved ones stay until their turn comes.
     queue: BinaryHeap<(Length, Reverse<Edge>)>,
-    /// Edges along contacts.
     barriers: HashSet<Edge>,
+}
+
+/// What a node hands down to its halves.
+#[derive(Clone, Copy)]
+struct Growth {
+    density: f64,
+    depth: u32,
 }
 
 /// A squared length, ordered: never NaN, since vertices are finite.
@@ -77,23 +114,37 @@ fn edges([a, b, c]: [VertexId; 3]) -> [Edge; 3] {
 }
 
 impl<'a> Grower<'a> {
-    fn new(
-        vertices: Vec<DVec3>,
-        roots: Vec<[VertexId; 3]>,
-        barriers: HashSet<Edge>,
-        grade: &'a Grade,
-    ) -> Self {
+    fn new(forest: Forest, plan: &'a Plan) -> Self {
+        let Forest { vertices, nodes, barriers } = forest;
+        let mut state = vec![Growth { density: 1.0, depth: 0 }; nodes.len()];
+        for (id, node) in nodes.iter().enumerate() {
+            // Halves come after what was halved.
+            match (node.children, plan.density) {
+                (Some(child), _) => {
+                    let depth = state[id].depth + 1;
+                    state[child as usize].depth = depth;
+                    state[child as usize + 1].depth = depth;
+                }
+                (None, Some(density)) => state[id].density = density[node.elements.start as usize],
+                (None, None) => {}
+            }
+        }
+        let leaves: Vec<u32> = (0u32..)
+            .zip(&nodes)
+            .filter_map(|(id, node)| node.children.is_none().then_some(id))
+            .collect();
         let mut grower = Self {
-            grade,
+            plan,
             vertices,
-            nodes: Vec::with_capacity(2 * roots.len()),
-            leaves: roots.len(),
+            nodes,
+            state,
+            leaves: leaves.len(),
             at_edge: HashMap::new(),
             queue: BinaryHeap::new(),
             barriers,
         };
-        for (root, corners) in roots.into_iter().enumerate() {
-            grower.add(corners, root as u32);
+        for leaf in leaves {
+            grower.enter(leaf, |_| true);
         }
         grower
     }
@@ -164,23 +215,34 @@ impl<'a> Grower<'a> {
         }
         self.nodes[leaf as usize].children = Some(self.nodes.len() as u32);
         self.leaves += 1;
-        self.add([a, middle, c], root);
-        self.add([middle, b, c], root);
+        let Growth { density, depth } = self.state[leaf as usize];
+        for vertices in [[a, middle, c], [middle, b, c]] {
+            self.nodes.push(Node { vertices, children: None, root, elements: 0..0 });
+            self.state.push(Growth { density, depth: depth + 1 });
+            // The other edges are in the queue already, for the leaf that this was.
+            self.enter(self.nodes.len() as u32 - 1, |edge| edge.1 == middle);
+        }
     }
 
-    /// Adds a leaf and enters it at its edges; an edge has one place in the queue.
-    fn add(&mut self, vertices: [VertexId; 3], root: u32) {
-        let id = self.nodes.len() as u32;
-        self.nodes.push(Node { vertices, children: None, root, elements: 0..0 });
+    /// Enters a leaf at its edges, and the new ones among them in the queue if it may be halved.
+    fn enter(&mut self, leaf: u32, new: impl Fn(Edge) -> bool) {
+        let vertices = self.nodes[leaf as usize].vertices;
+        let Growth { density, depth } = self.state[leaf as usize];
+        let place = vertices.map(|v| self.vertices[v.index()]);
+        let may = depth < self.plan.most_depth && triangle_area(place) > self.plan.least_area;
+        // Where some leaves may not be halved, an edge that they know may not be in the queue.
+        let limited = self.plan.least_area > 0.0 || self.plan.most_depth < u32::MAX;
         for edge in edges(vertices) {
-            let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
-            self.at_edge
-                .entry(edge)
-                .or_insert_with(|| {
-                    self.queue.push((Length::of(self.grade.squared_length(p, q)), Reverse(edge)));
-                    Vec::with_capacity(2)
-                })
-                .push(id);
+            let leaves = self.at_edge.entry(edge).or_insert_with(|| Vec::with_capacity(2));
+            let known = leaves
+                .iter()
+                .any(|&other| self.state[other as usize].density.total_cmp(&density).is_eq());
+            leaves.push(leaf);
+            if may && new(edge) && (!known || limited) {
+                let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
+                let squared = self.plan.grade.squared_length(p, q) * density;
+                self.queue.push((Length::of(squared), Reverse(edge)));
+            }
         }
     }
 }

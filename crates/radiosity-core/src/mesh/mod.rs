@@ -8,12 +8,15 @@ mod patch;
 mod points;
 mod weld;
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use glam::DVec3;
 use scene::{Face, Rgb, Scene, TriangleId, VertexId};
 
 use crate::config::MeshConfig;
+use bisect::{Forest, Plan};
+use cut::Edge;
 use grade::Grade;
 pub(crate) use patch::bounding;
 pub use points::ReceiverPoint;
@@ -87,6 +90,8 @@ pub struct Mesh {
     pub(crate) points: Vec<ReceiverPoint>,
     pub(crate) extent: f64,
     pub(crate) covered: usize,
+    /// Edges along contacts, which part receiver points.
+    barriers: HashSet<Edge>,
 }
 
 impl Mesh {
@@ -118,12 +123,50 @@ impl Mesh {
             true => Grade::of(&vertices, &roots, &corners),
             false => Grade::default(),
         };
-        let (vertices, nodes, barriers) =
-            bisect::forest(vertices, corners, barriers, &grade, config.elements);
+        let forest = Forest::of_roots(vertices, corners, barriers);
+        Self::grown(forest, roots, extent, covered, &grade, None, config)
+    }
+
+    /// Splits this mesh further, to about `config.elements` elements, more of them where
+    /// `density` is high: how many elements the place of each present element deserves per area,
+    /// beside the others. What is here stays: elements become inner nodes, vertices and nodes keep
+    /// their numbers. As [`Mesh::from_scene`] in all else; `config.cut` is without effect.
+    ///
+    /// # Panics
+    /// If there are fewer densities than elements.
+    #[must_use]
+    pub fn refined(&self, density: &[f64], config: &MeshConfig) -> Self {
+        let corners: Vec<_> = self.nodes[..self.roots.len()].iter().map(|n| n.vertices).collect();
+        let grade = match config.graded {
+            true => Grade::of(&self.vertices, &self.roots, &corners),
+            false => Grade::default(),
+        };
+        let forest = Forest {
+            vertices: self.vertices.clone(),
+            nodes: self.nodes.clone(),
+            barriers: self.barriers.clone(),
+        };
+        let roots = self.roots.clone();
+        Self::grown(forest, roots, self.extent, self.covered, &grade, Some(density), config)
+    }
+
+    fn grown(
+        forest: Forest,
+        roots: Vec<Root>,
+        extent: f64,
+        covered: usize,
+        grade: &Grade,
+        density: Option<&[f64]>,
+        config: &MeshConfig,
+    ) -> Self {
+        let MeshConfig { least_area, most_depth, .. } = *config;
+        let plan = Plan { grade, density, least_area, most_depth };
+        let Forest { vertices, nodes, barriers } = forest.grow(&plan, config.elements);
         let mut mesh = Self { vertices, roots, nodes, extent, covered, ..Self::default() };
         patch::number_elements(&mut mesh);
         patch::choose(&mut mesh, config.patch_elements.max(1));
         points::place(&mut mesh, &barriers);
+        mesh.barriers = barriers;
         mesh
     }
 

@@ -38,7 +38,6 @@ pub(super) struct Rung {
 
 pub(super) struct Ladder<'a, E: Executor> {
     pub(super) setting: Setting<'a, E>,
-    pub(super) most_elements: usize,
     /// Work on finished levels.
     pub(super) base: StepReport,
     pub(super) done: Option<Rung>,
@@ -75,8 +74,8 @@ impl<E: Executor> Ladder<'_, E> {
 
     /// How many elements the first level has.
     fn first(&self) -> usize {
-        let coarsest = FIRST_ELEMENTS.min(self.most_elements);
-        match self.setting.asked {
+        let coarsest = FIRST_ELEMENTS.min(self.setting.refining.most_elements);
+        match self.setting.refining.asked {
             Asked::Error(_) => coarsest,
             Asked::Unstated(n) => n,
             // Two levels below the asked one, as far as the scene's own pieces allow.
@@ -101,7 +100,7 @@ impl<E: Executor> Ladder<'_, E> {
     /// How many elements the next level has, or why there is none.
     fn next(&self, rung: &Rung, statement: Option<&Statement>) -> Result<usize, Reached> {
         let have = rung.level.elements();
-        match self.setting.asked {
+        match self.setting.refining.asked {
             Asked::Unstated(_) => Err(Reached::Elements),
             Asked::Elements(n) => {
                 if have as f64 * LEAST_GROWTH > n as f64 {
@@ -113,7 +112,7 @@ impl<E: Executor> Ladder<'_, E> {
             }
             Asked::Error(target) => {
                 let parts = statement.map_or_else(Parts::default, |s| s.triangles.e1);
-                let seen = have >= LEAST_ELEMENTS.min(self.most_elements);
+                let seen = have >= LEAST_ELEMENTS.min(self.setting.refining.most_elements);
                 if statement.is_some() && parts.total() <= target && seen {
                     return Err(Reached::Error);
                 }
@@ -124,10 +123,10 @@ impl<E: Executor> Ladder<'_, E> {
                     GROWTH
                 };
                 let more = (have as f64 * wanted).ceil();
-                if more <= self.most_elements as f64 {
+                if more <= self.setting.refining.most_elements as f64 {
                     Ok(more as usize)
-                } else if have as f64 * LEAST_GROWTH <= self.most_elements as f64 {
-                    Ok(self.most_elements)
+                } else if have as f64 * LEAST_GROWTH <= self.setting.refining.most_elements as f64 {
+                    Ok(self.setting.refining.most_elements)
                 } else {
                     Err(Reached::ElementLimit)
                 }
@@ -138,7 +137,9 @@ impl<E: Executor> Ladder<'_, E> {
     fn solve(&mut self, elements: usize, observer: &mut impl Observer) -> Level {
         let base = self.base;
         let mut relay = |step: &StepReport| observer.step(&base.and(step));
-        let level = self.setting.level(elements, self.done.is_none(), &mut relay);
+        let before = self.done.as_ref().map(|rung| &rung.level);
+        let mesh = self.setting.mesh(elements, before);
+        let level = self.setting.level(mesh, before.is_none(), &mut relay);
         self.base = base.and(&level.work);
         level
     }
@@ -169,7 +170,7 @@ impl<E: Executor> Ladder<'_, E> {
     }
 
     fn statement(&self, rung: &Rung) -> Option<Statement> {
-        if !self.setting.asked.stated() {
+        if !self.setting.refining.asked.stated() {
             return None;
         }
         let Level { iteration, sampled, probes, .. } = &rung.level;
@@ -202,7 +203,7 @@ impl<E: Executor> Ladder<'_, E> {
             _ => (rung, statement),
         };
         // A level that was cut short may state what was asked all the same.
-        let reached = match (self.setting.asked, reached, &statement) {
+        let reached = match (self.setting.refining.asked, reached, &statement) {
             (Asked::Error(target), Reached::Stopped, Some(s))
                 if s.triangles.e1.total() <= target =>
             {

@@ -3,14 +3,15 @@
 use accel::{Bvh, Occluder};
 use scene::{Rgb, Scene, Solution};
 
-use super::Asked;
 use super::difference::Lit;
+use super::mark;
 use super::place::{self, Probe};
 use super::sample::{self, Sampled};
 use super::statement::Measured;
 use super::surface::{Counted, Sides};
+use super::{Asked, RefineConfig};
 use crate::census::Census;
-use crate::config::{MeshConfig, ShootingConfig};
+use crate::config::{MeshConfig, ShootingConfig, Split};
 use crate::energy::Ledger;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
@@ -53,21 +54,35 @@ pub(super) struct Setting<'a, E: Executor> {
     pub(super) occluder: &'a dyn Occluder,
     pub(super) executor: &'a E,
     pub(super) config: ShootingConfig,
-    pub(super) asked: Asked,
+    pub(super) refining: RefineConfig,
     pub(super) probes: &'a [Probe],
 }
 
 impl<E: Executor> Setting<'_, E> {
-    /// Splits the scene, and shoots until what is unshot no longer matters or the observer
-    /// says stop.
-    pub(super) fn level(
-        &self,
-        elements: usize,
-        first: bool,
-        observer: &mut impl Observer,
-    ) -> Level {
+    /// The mesh of about so many elements: of elements of one size, or finer than the one before
+    /// where its light says so.
+    pub(super) fn mesh(&self, elements: usize, before: Option<&Level>) -> Mesh {
+        let RefineConfig { least_area, most_depth, .. } = self.refining;
+        let config = MeshConfig { least_area, most_depth, ..MeshConfig::with_elements(elements) };
+        match before {
+            Some(level) if self.adaptive() => {
+                let Level { mesh, solution, counted, .. } = level;
+                let mean = Sides::of(self.scene, mesh, solution, *counted).mean();
+                let density = mark::densities(level.lit(), mean, *counted, self.executor);
+                mesh.refined(&density, &config)
+            }
+            _ => Mesh::from_scene(self.scene, &config),
+        }
+    }
+
+    /// Whether levels follow the light.
+    pub(super) fn adaptive(&self) -> bool {
+        matches!(self.refining.asked, Asked::Error(_)) && self.refining.split != Split::None
+    }
+
+    /// Shoots on a mesh until what is unshot no longer matters or the observer says stop.
+    pub(super) fn level(&self, mesh: Mesh, first: bool, observer: &mut impl Observer) -> Level {
         let (scene, executor) = (self.scene, self.executor);
-        let mesh = Mesh::from_scene(scene, &MeshConfig::with_elements(elements));
         let census = Census::take(scene, &mesh, self.bvh, self.config.exchange, executor);
         let receivers: Vec<_> = self.probes.iter().filter_map(|p| p.receiver(scene)).collect();
         let (occluder, config) = (self.occluder, self.config);
@@ -78,7 +93,7 @@ impl<E: Executor> Setting<'_, E> {
         let solution = shooting.solution();
         let whole = Sides::of(scene, &mesh, &solution, counted);
         let remaining = shooting.remaining();
-        let sampled = if self.asked.stated() {
+        let sampled = if self.refining.asked.stated() {
             sample::form_factors(scene, &mesh, &shooting, &solution, counted)
         } else {
             Sampled::default()
@@ -120,7 +135,7 @@ impl<E: Executor> Setting<'_, E> {
         first: bool,
         observer: &mut impl Observer,
     ) -> StopReason {
-        let Asked::Error(target) = self.asked else { return shooting.run(observer) };
+        let Asked::Error(target) = self.refining.asked else { return shooting.run(observer) };
         let most = (ITERATION_SHARE * target).max(if first { FIRST_ITERATION } else { 0.0 });
         let mut unshot = most;
         for _ in 0..MOST_TIGHTENINGS {

@@ -7,6 +7,7 @@
 mod difference;
 mod ladder;
 mod level;
+mod mark;
 mod place;
 mod sample;
 mod statement;
@@ -15,7 +16,7 @@ mod surface;
 use accel::{Bvh, Occluder};
 use scene::{Rgb, Scene, Solution};
 
-use crate::config::ShootingConfig;
+use crate::config::{ShootingConfig, Split};
 use crate::energy::Ledger;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
@@ -43,6 +44,30 @@ impl Asked {
     }
 }
 
+/// How far and where meshes are refined.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RefineConfig {
+    /// What ends the work.
+    pub asked: Asked,
+    /// Never exceeded, except by the scene's own triangles.
+    pub most_elements: usize,
+    /// How elements are split where the light changes; without effect but for [`Asked::Error`].
+    pub split: Split,
+    /// See [`crate::MeshConfig::least_area`].
+    pub least_area: f64,
+    /// See [`crate::MeshConfig::most_depth`].
+    pub most_depth: u32,
+}
+
+impl RefineConfig {
+    /// Longest edges where the light asks for it, without limits.
+    #[must_use]
+    pub fn until(asked: Asked) -> Self {
+        let split = Split::default();
+        Self { asked, most_elements: 1 << 30, split, least_area: 0.0, most_depth: u32::MAX }
+    }
+}
+
 /// Why refinement ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
@@ -52,6 +77,8 @@ pub enum Reached {
     Elements,
     /// The next level would have more elements than allowed.
     ElementLimit,
+    /// No element may be split any more: all are as small as allowed.
+    SizeLimit,
     /// The observer said stop.
     Stopped,
     /// The shooting ended for a reason of its own: no light, or no end of it.
@@ -85,11 +112,10 @@ pub struct Refined {
     pub probes: Vec<Rgb>,
 }
 
-/// Solves a scene on finer and finer meshes until `asked` is met or the observer says stop.
+/// Solves a scene on finer and finer meshes until what is asked is met or the observer says stop.
 ///
-/// `bvh` and `occluder` hold the scene's input triangles in order; they may be the same.
-/// `most_elements` is never exceeded, except by the scene's own triangles. Same bits for every
-/// executor.
+/// `bvh` and `occluder` hold the scene's input triangles in order; they may be the same. Same bits
+/// for every executor.
 #[expect(clippy::too_many_arguments, reason = "each is a choice of its own")]
 pub fn refine<E: Executor>(
     scene: &Scene,
@@ -97,12 +123,11 @@ pub fn refine<E: Executor>(
     occluder: &dyn Occluder,
     executor: &E,
     config: ShootingConfig,
-    asked: Asked,
-    most_elements: usize,
+    refining: RefineConfig,
     probes: &[Probe],
     observer: &mut impl Observer,
 ) -> Refined {
-    let setting = Setting { scene, bvh, occluder, executor, config, asked, probes };
-    let mut ladder = Ladder { setting, most_elements, base: StepReport::default(), done: None };
+    let setting = Setting { scene, bvh, occluder, executor, config, refining, probes };
+    let mut ladder = Ladder { setting, base: StepReport::default(), done: None };
     ladder.climb(observer)
 }

@@ -120,7 +120,13 @@ impl Near {
             return;
         }
         let first = self.points.len() as u32;
-        self.quarter(mesh, element, corners, 1.0, source.quarterings(element.area, radius, gap, light));
+        self.quarter(
+            mesh,
+            element,
+            corners,
+            1.0,
+            source.quarterings(element.area, radius, gap, light),
+        );
         self.elements.push(NearElement { element: id, first, last: self.points.len() as u32 });
     }
 

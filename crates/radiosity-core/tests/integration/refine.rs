@@ -2,8 +2,8 @@
 
 use accel::{Bvh, BvhConfig};
 use radiosity_core::{
-    Asked, Control, LevelReport, Observer, Probe, Reached, Refined, Sequential, StepReport,
-    StopReason, refine,
+    Asked, Control, LevelReport, Observer, Probe, Reached, RefineConfig, Refined, Sequential,
+    StepReport, StopReason, refine,
 };
 use scene::{Rgb, Scene, TriangleId};
 
@@ -25,7 +25,8 @@ fn watched(
 ) -> Refined {
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
     let bvh = Bvh::build(&triangles, &BvhConfig::default());
-    refine(scene, &bvh, &bvh, &Sequential, until(1e-4), asked, most, probes, observer)
+    let refining = RefineConfig { most_elements: most, ..RefineConfig::until(asked) };
+    refine(scene, &bvh, &bvh, &Sequential, until(1e-4), refining, probes, observer)
 }
 
 /// Two plates that light each other: E = 1 below, ρ on both. By symmetry both triangles of a
