@@ -98,6 +98,25 @@ pub struct ShootingConfig {
     pub bright: f64,
     /// Whether a uniform light may be taken out of what is unshot.
     pub correction: Correction,
+    /// How many patches shoot together.
+    pub schedule: Schedule,
+}
+
+/// How many patches shoot in one step.
+///
+/// Patches that shoot together light each other, too: each shoots what it had before the step, and
+/// what it receives in it is unshot afterwards. So the light converges to the same for every
+/// schedule, in steps of other bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Schedule {
+    /// As many as are about as bright as the brightest, within memory: those would shoot one after
+    /// the other anyhow.
+    #[default]
+    Auto,
+    /// One.
+    Single,
+    /// The so many brightest.
+    Multi(std::num::NonZeroUsize),
 }
 
 /// When the shooting is helped by an ambient correction: what all patches together still have
@@ -122,6 +141,7 @@ impl ShootingConfig {
             cell_share: 0.05,
             bright: 2.0,
             correction: Correction::Auto,
+            schedule: Schedule::Auto,
         }
     }
 }

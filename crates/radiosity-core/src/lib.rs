@@ -13,10 +13,10 @@ mod refine;
 mod shooting;
 
 pub use census::{Census, Fate};
-pub use config::{Correction, Exchange, MeshConfig, ShootingConfig, Split, StopRule};
+pub use config::{Correction, Exchange, MeshConfig, Schedule, ShootingConfig, Split, StopRule};
 pub use energy::{Ledger, RgbSum, Sum};
 pub use executor::{Executor, Sequential};
 pub use mesh::Mesh;
-pub use observer::{Control, LevelReport, Observer, StepReport};
+pub use observer::{Control, LevelReport, Observer, StepReport, Stopper};
 pub use refine::{Asked, Parts, Probe, Reached, RefineConfig, Refined, Stated, Statement, refine};
 pub use shooting::{DIVERGED, Gathered, Remaining, Shooting, StopReason};

@@ -1,8 +1,10 @@
-//! What a caller hears after each shot, and how it can stop the solver.
+//! What a caller hears after each step, and how it can stop the solver.
+
+use std::sync::Arc;
 
 use crate::refine::Statement;
 
-/// The state after a shot.
+/// The state after a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepReport {
     /// Shots so far.
@@ -33,17 +35,26 @@ pub struct LevelReport {
 pub enum Control {
     /// Go on.
     Continue,
-    /// Stop after this shot; the solution so far is valid.
+    /// Stop after this step; the solution so far is valid.
     Stop,
 }
 
-/// Hears of every shot. Nothing it does changes the light.
+/// Asked now and then inside a step, by several threads: `true` ends the work at once. The step
+/// then counts for nothing; the light before it is the result.
+pub type Stopper = Arc<dyn Fn() -> bool + Send + Sync>;
+
+/// Hears of every step. Nothing it does changes the light, but that it may end early.
 pub trait Observer {
-    /// Called once after each shot.
+    /// Called once after each step: one shot, or as many as the schedule puts together.
     fn step(&mut self, report: &StepReport) -> Control;
 
     /// Called once after each level of refinement.
     fn level(&mut self, _: &LevelReport) {}
+
+    /// What may end a step before it is done; asked for once, before the first.
+    fn stopper(&self) -> Option<Stopper> {
+        None
+    }
 }
 
 /// Hears nothing, stops nothing.

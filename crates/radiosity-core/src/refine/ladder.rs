@@ -9,7 +9,7 @@ use super::{Asked, Reached, Refined};
 use crate::config::MeshConfig;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
-use crate::observer::{LevelReport, Observer, StepReport};
+use crate::observer::{Control, LevelReport, Observer, StepReport, Stopper};
 use crate::shooting::StopReason;
 
 /// Elements of the first level, or the scene's own triangles if those are more.
@@ -136,7 +136,7 @@ impl<E: Executor> Ladder<'_, E> {
 
     fn solve(&mut self, elements: usize, observer: &mut impl Observer) -> Level {
         let base = self.base;
-        let mut relay = |step: &StepReport| observer.step(&base.and(step));
+        let mut relay = Relay { base, observer };
         let before = self.done.as_ref().map(|rung| &rung.level);
         let mesh = self.setting.mesh(elements, before);
         let level = self.setting.level(mesh, before.is_none(), &mut relay);
@@ -225,6 +225,22 @@ impl<E: Executor> Ladder<'_, E> {
             closed_rows: level.closed_rows,
             probes: level.probes,
         }
+    }
+}
+
+/// Adds the work of earlier levels to what the observer hears.
+struct Relay<'a, O: Observer> {
+    base: StepReport,
+    observer: &'a mut O,
+}
+
+impl<O: Observer> Observer for Relay<'_, O> {
+    fn step(&mut self, step: &StepReport) -> Control {
+        self.observer.step(&self.base.and(step))
+    }
+
+    fn stopper(&self) -> Option<Stopper> {
+        self.observer.stopper()
     }
 }
 

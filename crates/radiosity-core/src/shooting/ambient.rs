@@ -131,9 +131,9 @@ impl Ambient {
         self.left == 0
     }
 
-    /// The first patch that has not shot.
-    pub(super) fn next_waiting(&self) -> Option<usize> {
-        self.waiting.iter().position(|w| *w)
+    /// The patches that have not shot, in order.
+    pub(super) fn waiting(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.waiting.len()).filter(|&patch| self.waiting[patch])
     }
 
     /// Books a shot of the first sweep.

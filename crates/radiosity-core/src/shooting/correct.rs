@@ -22,17 +22,20 @@ impl<E: Executor> Shooting<'_, E> {
         ambient.watch(power, returned * sides(self.config.exchange));
     }
 
-    /// Ambient corrections: decided on after the first sweep, made every few shots.
-    pub(super) fn help(&mut self, shooter: usize) {
+    /// Ambient corrections after these patches shot: decided on after the first sweep, made every
+    /// few shots.
+    pub(super) fn help(&mut self, patches_shot: &[usize]) {
         let patches = self.mesh.patches.len() as u64;
         let Some(ambient) = self.ambient.as_mut() else { return };
-        ambient.learnt(shooter);
+        patches_shot.iter().for_each(|&patch| ambient.learnt(patch));
+        let period = (patches / PER_SWEEP).max(1);
+        let before = self.shots - patches_shot.len() as u64;
         match ambient.phase {
             Phase::Watching if self.shots >= patches => {
                 let plain = ambient.loss() >= LOSS_OF_PLAIN;
                 ambient.phase = if plain { Phase::LeftOut } else { Phase::Completing };
             }
-            Phase::Correcting if self.shots.is_multiple_of((patches / PER_SWEEP).max(1)) => {
+            Phase::Correcting if self.shots / period > before / period => {
                 self.correct();
             }
             _ => {}

@@ -1,6 +1,6 @@
 //! Progressive shooting: the brightest patch lights all others, until little is unshot.
 //!
-//! One step: **select** the patch with the most unshot power; **transfer** its light to
+//! One step: **select** the patch with the most unshot power, or some; **transfer** its light to
 //! every receiver point, each into its own slot; **commit** what arrived to elements and
 //! patches. A step reads a frozen state, so its result does not depend on who computes what.
 //! Where little is absorbed, an **ambient** correction every few steps takes the place of
@@ -17,6 +17,7 @@ mod light;
 mod near;
 mod remaining;
 mod select;
+mod shooter;
 mod state;
 mod stop;
 mod transfer;
@@ -24,19 +25,18 @@ mod transfer;
 use accel::Occluder;
 use scene::{Rgb, Solution};
 
-use crate::census::Census;
+use crate::census::{Census, Lost};
 use crate::config::{Correction, Exchange, ShootingConfig};
 use crate::energy::{RgbSum, Sum};
 use crate::executor::Executor;
 use crate::mesh::{Mesh, ReceiverPoint};
-use crate::observer::{Control, Observer, StepReport};
+use crate::observer::{Control, Observer, StepReport, Stopper};
 use crate::reconstruct;
 use account::Account;
 use ambient::{Ambient, LOSS_OF_PLAIN, Phase};
-use cell::Cell;
 pub use gather::Gathered;
-use near::Near;
 pub use remaining::Remaining;
+use shooter::Shooter;
 use state::State;
 use stop::STALL_FALL;
 pub use stop::{DIVERGED, StopReason};
@@ -68,10 +68,8 @@ pub struct Shooting<'a, E: Executor> {
     closure: Option<Vec<f64>>,
     /// Row sums before they were closed.
     raw_rows: Option<[f64; 2]>,
-    cells: Vec<Cell>,
-    near: Near,
-    arriving: Vec<Rgb>,
-    seen: Vec<f64>,
+    /// Those of the present step, with room for more.
+    shooters: Vec<Shooter>,
     scratch: Vec<Scratch>,
 }
 
@@ -123,8 +121,6 @@ impl<'a, E: Executor> Shooting<'a, E> {
             endless: [0, 1, 2].map(|c| emitted[c] > 0.0 && absorption[c] == 0.0),
             emitted,
             ambient: stiff.then(|| Ambient::new(mesh, receivers.len())),
-            arriving: vec![Rgb::ZERO; receivers.len()],
-            seen: vec![0.0; receivers.len()],
             mesh,
             occluder,
             census,
@@ -137,20 +133,20 @@ impl<'a, E: Executor> Shooting<'a, E> {
             lowest: (f64::INFINITY, 0),
             closure: None,
             raw_rows: None,
-            cells: Vec::new(),
-            near: Near::default(),
+            shooters: Vec::new(),
             scratch: Vec::new(),
         }
     }
 
     /// Shoots until the stop rule, the observer or a stall ends it.
     pub fn run(&mut self, observer: &mut impl Observer) -> StopReason {
+        let stopper = observer.stopper();
         loop {
             if let Some(reason) = self.finished() {
                 return reason;
             }
-            self.step();
-            if observer.step(&self.report()) == Control::Stop {
+            let done = self.step_unless(stopper.as_ref());
+            if !done || observer.step(&self.report()) == Control::Stop {
                 return self.finished().unwrap_or(StopReason::Stopped);
             }
         }
@@ -161,36 +157,56 @@ impl<'a, E: Executor> Shooting<'a, E> {
         self.config.stop.unshot = unshot;
     }
 
-    /// One shot: select, transfer, commit; then, where it pays, an ambient correction. Does
+    /// One step: select, transfer, commit; then, where it pays, an ambient correction. Does
     /// nothing when all is shot.
     pub fn step(&mut self) {
+        self.step_unless(None);
+    }
+
+    /// One step, if nothing stops it: `false` if it was stopped, and nothing changed.
+    fn step_unless(&mut self, stopper: Option<&Stopper>) -> bool {
+        let (schedule, receivers) = (self.config.schedule, self.receivers.len());
         let completing = self.ambient.as_ref().filter(|a| a.phase == Phase::Completing);
-        let chosen = completing
-            .and_then(Ambient::next_waiting)
-            .or_else(|| select::brightest(&self.state.patch_power, self.emitted));
-        let Some(shooter) = chosen else { return };
-        self.shoot(shooter);
-        self.shots += 1;
-        self.help(shooter);
+        let mut chosen = completing.map_or_else(Vec::new, |ambient| {
+            ambient.waiting().take(select::at_once(schedule, receivers)).collect()
+        });
+        if chosen.is_empty() {
+            let power = &self.state.patch_power;
+            chosen = select::brightest(power, self.emitted, schedule, receivers);
+        }
+        if let Some(most) = self.config.stop.max_shots {
+            chosen.truncate(most.saturating_sub(self.shots).max(1) as usize);
+        }
+        if chosen.is_empty() {
+            return true;
+        }
+        if !self.shoot(&chosen, stopper) {
+            return false;
+        }
         let unshot = self.unshot_share();
         if unshot < self.lowest.0 * (1.0 - STALL_FALL) {
             self.lowest = (unshot, self.shots);
         }
+        true
     }
 
     /// Shoots each patch that has not shot yet, however little it has: afterwards the bound of
     /// [`Shooting::remaining`] knows what every point sees. Does nothing where reflectances
     /// are so low that the bound is tight without that.
     pub fn complete(&mut self, observer: &mut impl Observer) -> Control {
-        while let Some(shooter) = self.ambient.as_ref().and_then(Ambient::next_waiting) {
-            self.shoot(shooter);
-            self.shots += 1;
-            self.help(shooter);
-            if observer.step(&self.report()) == Control::Stop {
+        let stopper = observer.stopper();
+        let most = select::at_once(self.config.schedule, self.receivers.len());
+        loop {
+            let waiting = self.ambient.iter().flat_map(Ambient::waiting);
+            let chosen: Vec<usize> = waiting.take(most).collect();
+            if chosen.is_empty() {
+                return Control::Continue;
+            }
+            let done = self.shoot(&chosen, stopper.as_ref());
+            if !done || observer.step(&self.report()) == Control::Stop {
                 return Control::Stop;
             }
         }
-        Control::Continue
     }
 
     /// What the observer hears.
@@ -230,25 +246,54 @@ impl<'a, E: Executor> Shooting<'a, E> {
         self.raw_rows
     }
 
-    /// Shoots one patch's light, be it none, and books it.
-    fn shoot(&mut self, shooter: usize) {
-        let power = self.state.power_of(self.mesh, shooter) * sides(self.config.exchange);
-        let sampled =
-            (!self.census.is_empty()).then(|| self.census.lost(shooter, power, &self.state.unshot));
-        self.transfer(shooter);
-        for e in self.mesh.patches[shooter].elements.clone() {
-            self.state.unshot[e as usize] = Rgb::ZERO;
+    /// Shoots the light of some patches, be it none, and books it; `false` if it was stopped, and
+    /// nothing changed.
+    fn shoot(&mut self, patches: &[usize], stopper: Option<&Stopper>) -> bool {
+        if self.shooters.len() < patches.len() {
+            self.shooters.resize_with(patches.len(), Shooter::default);
         }
+        for (shooter, &patch) in self.shooters.iter_mut().zip(patches) {
+            shooter.patch = patch;
+            shooter.learnt = self.ambient.as_ref().is_some_and(|a| a.wants(patch));
+        }
+        if !self.transfer(patches.len(), stopper) {
+            return false;
+        }
+        let mut power = RgbSum::default();
+        let mut sampled = (!self.census.is_empty()).then(Lost::default);
+        for &patch in patches {
+            let of_patch = self.state.power_of(self.mesh, patch) * sides(self.config.exchange);
+            power.add(of_patch);
+            if let Some(sampled) = &mut sampled {
+                let lost = self.census.lost(patch, of_patch, &self.state.unshot);
+                sampled.wrong_side += lost.wrong_side;
+                sampled.escaped += lost.escaped;
+            }
+        }
+        for &patch in patches {
+            for e in self.mesh.patches[patch].elements.clone() {
+                self.state.unshot[e as usize] = Rgb::ZERO;
+            }
+        }
+        let shooters = &self.shooters[..patches.len()];
         let closure = self.closure.as_deref();
-        let (near, state) = (&self.near, &mut self.state);
-        commit::commit(self.mesh, &self.arriving, near, closure, state, self.executor);
-        let mut rest = RgbSum::default();
-        rest.add(power);
+        commit::commit(self.mesh, shooters, closure, &mut self.state, self.executor);
+        if let Some(ambient) = &mut self.ambient {
+            for shooter in shooters.iter().filter(|s| s.learnt) {
+                let patch = &self.mesh.patches[shooter.patch];
+                let root = self.mesh.nodes[patch.node as usize].root as usize;
+                ambient.learn(shooter.patch, self.mesh.roots[root].reflectance, &shooter.seen);
+            }
+        }
+        let mut rest = power;
         for received in &self.state.patch_received {
             rest.add(*received * -1.0);
         }
         self.account.book(rest.value(), sampled);
-        self.watch(power);
+        self.watch(power.value());
+        self.shots += patches.len() as u64;
+        self.help(patches);
+        true
     }
 }
 
