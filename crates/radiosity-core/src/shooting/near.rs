@@ -8,8 +8,6 @@
 //! it sees sum to 1, and so do the means of corners; a mixture of two rules does not, and at
 //! reflectance ρ a row that is off by δ is off by δ/(1 − ρ) in the light.
 
-use std::f64::consts::PI;
-
 use glam::DVec3;
 use scene::Rgb;
 
@@ -67,13 +65,10 @@ impl Near {
         if light <= 1.0 {
             return;
         }
-        let elements =
-            &mesh.elements[shooter.elements.start as usize..shooter.elements.end as usize];
         let source = Source {
             patch: shooter,
             corners: mesh.corners(mesh.nodes[shooter.node as usize].vertices),
             normal: mesh.roots[mesh.nodes[shooter.node as usize].root as usize].normal,
-            area: elements.iter().map(|e| e.area).sum(),
             exchange,
             light,
             scene_area: mesh.elements.iter().map(|e| e.area).sum(),
@@ -115,18 +110,11 @@ impl Near {
         let gap = distance_to(source.corners, centroid) - radius;
         let in_front = |c: &DVec3| source.normal.dot(*c - source.patch.centroid) > 0.0;
         let facing = source.exchange == Exchange::Paired || corners.iter().any(in_front);
-        let light = source.light_across(gap);
-        if gap > NEAR_RADII * radius || !facing || light <= 1.0 {
+        if gap > NEAR_RADII * radius || !facing {
             return;
         }
         let first = self.points.len() as u32;
-        self.quarter(
-            mesh,
-            element,
-            corners,
-            1.0,
-            source.quarterings(element.area, radius, gap, light),
-        );
+        self.quarter(mesh, element, corners, 1.0, source.quarterings(element.area, radius, gap));
         self.elements.push(NearElement { element: id, first, last: self.points.len() as u32 });
     }
 
@@ -158,7 +146,6 @@ struct Source<'a> {
     patch: &'a Patch,
     corners: [DVec3; 3],
     normal: DVec3,
-    area: f64,
     exchange: Exchange,
     light: f64,
     /// Area of all elements.
@@ -166,19 +153,12 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// At most what the shooter brings across this gap.
-    fn light_across(&self, gap: f64) -> f64 {
-        // The form factor is at most 1, and at most that of the whole shooter face to face.
-        let form_factor = if gap > 0.0 { (self.area / (PI * gap * gap)).min(1.0) } else { 1.0 };
-        self.light * form_factor
-    }
-
     /// How often to quarter an element of this area and radius.
-    fn quarterings(&self, area: f64, radius: f64, gap: f64, light: f64) -> u32 {
+    fn quarterings(&self, area: f64, radius: f64, gap: f64) -> u32 {
         // A shooter smaller than the element lights a spot about as wide as the gap or itself.
         let spot = (radius / gap.max(self.patch.radius)).log2();
         // Each quartering divides what one part brings by 4.
-        let parts = (light * area / (PART_SHARE * self.scene_area)).log2() / 2.0;
+        let parts = (self.light * area / (PART_SHARE * self.scene_area)).log2() / 2.0;
         spot.max(parts).ceil().clamp(0.0, f64::from(MOST_QUARTERINGS)) as u32
     }
 }

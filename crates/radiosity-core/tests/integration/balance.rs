@@ -4,8 +4,8 @@ use std::sync::Mutex;
 
 use accel::{Bvh, BvhConfig, Octree, OctreeConfig};
 use radiosity_core::{
-    Census, Control, Exchange, Executor, Mesh, MeshConfig, Sequential, Shooting, StepReport,
-    StopReason,
+    Census, Control, Exchange, Executor, Mesh, MeshConfig, Schedule, Sequential, Shooting,
+    ShootingConfig, StepReport, StopReason,
 };
 use scene::{Scene, Solution};
 
@@ -146,7 +146,8 @@ fn the_observer_hears_every_shot_and_may_stop() {
     let bvh = Bvh::build(&triangles, &BvhConfig::default());
     let mesh = Mesh::from_scene(&scene, &MeshConfig::with_elements(100));
     let census = Census::default();
-    let mut shooting = Shooting::new(&mesh, &bvh, &census, &Sequential, until(1e-6));
+    let config = ShootingConfig { schedule: Schedule::Single, ..until(1e-6) };
+    let mut shooting = Shooting::new(&mesh, &bvh, &census, &Sequential, config);
     let mut heard = Vec::new();
     let reason = shooting.run(&mut |r: &StepReport| {
         heard.push(r.shots);
