@@ -1,6 +1,7 @@
 //! The command line as it is typed.
 
 mod form_factors;
+mod shooting;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -8,6 +9,7 @@ use std::time::Duration;
 use clap::{Parser, Subcommand, ValueEnum};
 
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
+pub(crate) use shooting::{ShootingArgs, SplitArg};
 
 /// Turns a triangle scene into its diffuse global illumination.
 ///
@@ -157,6 +159,9 @@ pub(crate) struct SolveArgs {
 
     #[command(flatten)]
     pub(crate) work: WorkArgs,
+
+    #[command(flatten)]
+    pub(crate) shooting: ShootingArgs,
 
     #[command(flatten)]
     pub(crate) read: ReadArgs,

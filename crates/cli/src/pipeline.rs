@@ -7,7 +7,7 @@ use radiosity_core::{
     Asked, Census, Control, Executor, LevelReport, Mesh, MeshConfig, Observer, Probe, RefineConfig,
     Refined, ShootingConfig, Statement, StepReport, StopReason, refine,
 };
-use radiosity_par::Pool;
+use radiosity_par::{Loop, Pool};
 use scene::Scene;
 
 use crate::args::AccelArg;
@@ -48,8 +48,8 @@ pub(crate) struct CurvePoint {
 }
 
 /// Builds what finds the occluders.
-pub(crate) fn prepare(scene: &Scene, work: &Work) -> Result<Prepared, Failure> {
-    let pool = Pool::new(work.threads)?;
+pub(crate) fn prepare(scene: &Scene, work: &Work, sharing: Loop) -> Result<Prepared, Failure> {
+    let pool = Pool::with_loop(work.threads, sharing)?;
     let clock = Instant::now();
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
     let config = BvhConfig::default();
@@ -89,7 +89,12 @@ pub(crate) fn solve(
     probes: &[Probe],
 ) -> Result<Solved, Failure> {
     let exchange = settings.read.exchange;
-    let config = ShootingConfig { exchange, ..ShootingConfig::until(settings.goal.converge()) };
+    let how = &settings.shooting;
+    let config = ShootingConfig {
+        exchange,
+        schedule: how.schedule,
+        ..ShootingConfig::until(settings.goal.converge())
+    };
     let asked = settings.goal.asked(scene.triangles().len());
     let (most, which) = settings.limits.most_elements();
     let mut watch = Watch {
@@ -101,7 +106,13 @@ pub(crate) fn solve(
     };
     let (bvh, occluder) = (&prepared.bvh, prepared.occluder());
     let pool = &prepared.pool;
-    let refining = RefineConfig { most_elements: most, ..RefineConfig::until(asked) };
+    let refining = RefineConfig {
+        asked,
+        most_elements: most,
+        split: how.split,
+        least_area: how.least_area,
+        most_depth: how.most_depth.unwrap_or(u32::MAX),
+    };
     let refined = refine(scene, bvh, occluder, pool, config, refining, probes, &mut watch);
     refuse_endless(refined.reason)?;
     let limit = match refined.reached {

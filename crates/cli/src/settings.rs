@@ -6,10 +6,13 @@ mod goal;
 use std::path::PathBuf;
 
 use output::{Exposure, Format};
-use radiosity_core::{Exchange, MeshConfig};
+use radiosity_core::{Exchange, MeshConfig, Schedule, Split};
+use radiosity_par::Loop;
 use scene_import::SidesRule;
 
-use crate::args::{AccelArg, PictureArgs, ReadArgs, SidesArg, SolveArgs, WorkArgs};
+use crate::args::{
+    AccelArg, PictureArgs, ReadArgs, ShootingArgs, SidesArg, SolveArgs, SplitArg, WorkArgs,
+};
 use crate::failure::Failure;
 pub(crate) use form_factors::{FormFactors, TableTarget, form_factors};
 pub(crate) use goal::{BYTES_PER_ELEMENT, Goal, Limits};
@@ -32,6 +35,7 @@ pub(crate) struct Solve {
     pub(crate) goal: Goal,
     pub(crate) limits: Limits,
     pub(crate) work: Work,
+    pub(crate) shooting: Shooting,
     pub(crate) read: Read,
     pub(crate) picture: PictureArgs,
 }
@@ -53,6 +57,16 @@ pub(crate) struct Work {
     pub(crate) elements: Option<usize>,
     pub(crate) accel: AccelArg,
     pub(crate) threads: usize,
+}
+
+/// Who shoots with whom, how threads share the work, and where elements are split.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Shooting {
+    pub(crate) schedule: Schedule,
+    pub(crate) sharing: Loop,
+    pub(crate) split: Split,
+    pub(crate) least_area: f64,
+    pub(crate) most_depth: Option<u32>,
 }
 
 /// How the scene is read, and who exchanges light with whom.
@@ -134,6 +148,7 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
             memory: args.max_memory,
         },
         work: work(&args.work)?,
+        shooting: shooting(&args.shooting, fixed)?,
         read: read(&args.read)?,
         picture: args.picture,
     })
@@ -145,6 +160,25 @@ pub(crate) fn work(args: &WorkArgs) -> Result<Work, Failure> {
         return Err(Failure::Usage(format!("--elements: expected 1 to {MOST_ELEMENTS}")));
     }
     Ok(Work { elements: args.elements, accel: args.accel, threads: threads(args.threads)? })
+}
+
+/// Resolves the flags that say how light is shot; `fixed` if the mesh does not follow it.
+fn shooting(args: &ShootingArgs, fixed: bool) -> Result<Shooting, Failure> {
+    if !(args.min_area.is_finite() && args.min_area >= 0.0) {
+        let message = "--min-area: expected an area, at least 0";
+        return Err(Failure::Usage(message.into()));
+    }
+    if fixed && args.split == SplitArg::Centroid {
+        let message = "--split centroid: is for --error; --elements and --converge fix the mesh";
+        return Err(Failure::Usage(message.into()));
+    }
+    Ok(Shooting {
+        schedule: args.schedule,
+        sharing: args.sharing,
+        split: args.split.into(),
+        least_area: args.min_area,
+        most_depth: args.max_depth,
+    })
 }
 
 /// Resolves the number of threads.

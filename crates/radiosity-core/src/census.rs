@@ -13,6 +13,7 @@ use scene::{Rgb, Scene, Sides, TriangleId};
 use crate::config::Exchange;
 use crate::executor::Executor;
 use crate::mesh::{Mesh, Patch};
+use crate::observer::Stopper;
 use crate::shooting::SEGMENT_LIFT;
 
 /// Directions per patch: the ledger sums over hundreds of patches, so few are enough, and
@@ -82,10 +83,26 @@ impl Census {
         exchange: Exchange,
         executor: &E,
     ) -> Self {
+        Self::take_unless(scene, mesh, bvh, exchange, executor, None).unwrap_or_default()
+    }
+
+    /// As [`Census::take`], if nothing stops it on the way.
+    pub(crate) fn take_unless<E: Executor>(
+        scene: &Scene,
+        mesh: &Mesh,
+        bvh: &Bvh,
+        exchange: Exchange,
+        executor: &E,
+        stopper: Option<&Stopper>,
+    ) -> Option<Self> {
+        let stopped = || stopper.is_some_and(|stop| stop());
         let look = Look { scene, mesh, bvh, exchange };
         let mut buried = vec![false; mesh.points.len()];
         let mut work: Vec<_> = mesh.points.chunks(RUN).zip(buried.chunks_mut(RUN)).collect();
         executor.for_each(&mut work, |(points, buried)| {
+            if stopped() {
+                return;
+            }
             for (point, slot) in points.iter().zip(buried.iter_mut()) {
                 *slot = look.is_buried(point.position, point.normal);
             }
@@ -96,11 +113,14 @@ impl Census {
         executor.for_each(&mut work, |((number, patch), slots)| {
             // Patches of one plane must not all look the same way.
             let shift = spread(*number);
+            if number.is_multiple_of(RUN as u32) && stopped() {
+                return;
+            }
             for (i, slot) in (0..).zip(slots.iter_mut()) {
                 *slot = look.follow(patch, i, shift);
             }
         });
-        Self { samples, buried }
+        (!stopped()).then_some(Self { samples, buried })
     }
 
     /// Whether a receiver point lies inside something, such as a floor's point below a box:

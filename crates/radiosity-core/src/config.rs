@@ -32,6 +32,8 @@ pub struct MeshConfig {
     pub least_area: f64,
     /// So is one this many halvings below its input triangle.
     pub most_depth: u32,
+    /// How [`crate::Mesh::refined`] splits.
+    pub split: Split,
 }
 
 impl MeshConfig {
@@ -46,6 +48,7 @@ impl MeshConfig {
             graded: true,
             least_area: 0.0,
             most_depth: u32::MAX,
+            split: Split::LongestEdge,
         }
     }
 }
@@ -64,6 +67,10 @@ pub enum Split {
     /// they were, and no vertex lies inside a neighbour's edge.
     #[default]
     LongestEdge,
+    /// Elements are cut into three at their centroids, without a word to their neighbours: what the
+    /// program did whose rules [`Exchange::Paired`] keeps. Angles shrink with every cut, and edges
+    /// stay as long as they are.
+    Centroid,
     /// Nowhere: each mesh has elements of one size.
     None,
 }

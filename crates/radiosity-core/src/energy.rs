@@ -2,6 +2,8 @@
 
 use scene::Rgb;
 
+use crate::checkpoint::{Inconsistent, Reader, Record, record};
+
 /// A sum that keeps what f64 rounds away (Neumaier 1974).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sum {
@@ -47,6 +49,18 @@ impl RgbSum {
     }
 }
 
+record!(Sum { total, lost });
+
+impl Record for RgbSum {
+    fn write(&self, out: &mut dyn std::io::Write) -> std::io::Result<()> {
+        self.0.write(out)
+    }
+
+    fn read(from: &mut Reader<'_>) -> Result<Self, Inconsistent> {
+        Ok(Self(Record::read(from)?))
+    }
+}
+
 /// Where the emitted power went, W per channel:
 /// emitted = absorbed + escaped + wrong side + unshot.
 ///
@@ -69,6 +83,8 @@ pub struct Ledger {
     /// Received or emitted, and not shot yet.
     pub unshot: Rgb,
 }
+
+record!(Ledger { emitted, absorbed, escaped, form_factor_defect, wrong_side, unshot });
 
 impl Ledger {
     /// |emitted − absorbed − escaped − wrong side − unshot| / emitted, worst channel;

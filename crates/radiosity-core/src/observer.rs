@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use scene::Solution;
+
+use crate::mesh::Mesh;
 use crate::refine::Statement;
 
 /// The state after a step.
@@ -39,8 +42,8 @@ pub enum Control {
     Stop,
 }
 
-/// Asked now and then inside a step, by several threads: `true` ends the work at once. The step
-/// then counts for nothing; the light before it is the result.
+/// Asked now and then inside a step and between them, by several threads: `true` ends the work at
+/// once, and stays. The step then counts for nothing; the light before it is the result.
 pub type Stopper = Arc<dyn Fn() -> bool + Send + Sync>;
 
 /// Hears of every step. Nothing it does changes the light, but that it may end early.
@@ -51,10 +54,24 @@ pub trait Observer {
     /// Called once after each level of refinement.
     fn level(&mut self, _: &LevelReport) {}
 
-    /// What may end a step before it is done; asked for once, before the first.
+    /// What may end a step before it is done; asked for before the first.
     fn stopper(&self) -> Option<Stopper> {
         None
     }
+
+    /// How many elements the next level may have, of those planned; asked before each. Fewer make
+    /// it coarser, or leave it out where it would no longer be finer than the one before.
+    fn elements(&mut self, planned: usize) -> usize {
+        planned
+    }
+
+    /// Whether the light after this step is wanted; asked after each.
+    fn wants_solution(&mut self, _: &StepReport) -> bool {
+        false
+    }
+
+    /// The light that was wanted, unshot light included, on the present level's mesh.
+    fn solution(&mut self, _: &StepReport, _: &Mesh, _: &Solution) {}
 }
 
 /// Hears nothing, stops nothing.

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use radiosity_core::{Census, Mesh};
+use radiosity_par::Loop;
 use scene::{Rgb, Scene, Sides};
 use scene_import::Imported;
 
@@ -23,7 +24,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
     solve::check_paired(&imported.scene, &read)?;
     result(&format!("{file}: {}", imported.summary))?;
     say_scene(&imported)?;
-    let prepared = pipeline::prepare(&imported.scene, &work)?;
+    let prepared = pipeline::prepare(&imported.scene, &work, Loop::default())?;
     let config = work.mesh(imported.scene.triangles().len());
     let (mesh, census, time) = pipeline::mesh(&imported.scene, &prepared, &config, &read);
     solve::warn_of_coarseness(&imported.scene, &mesh);

@@ -41,6 +41,7 @@ pub(crate) fn bundled() -> Result<(), Failure> {
         goal: settings::Goal::Error(0.01),
         limits: settings::Limits::default(),
         work: Work { elements: None, accel: AccelArg::Auto, threads: 0 },
+        shooting: settings::Shooting::default(),
         read: Read {
             options: scene_import::Options::default(),
             exchange: radiosity_core::Exchange::OneSided,
@@ -76,7 +77,7 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         Some(path) => places(path, &imported.scene)?,
         None => Vec::new(),
     };
-    let prepared = pipeline::prepare(&imported.scene, &settings.work)?;
+    let prepared = pipeline::prepare(&imported.scene, &settings.work, settings.shooting.sharing)?;
     let probes: Vec<Probe> = places.iter().map(probe).collect();
     let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes)?;
     warn_of_coarseness(&imported.scene, &solved.refined.mesh);

@@ -45,7 +45,7 @@ impl Forest {
         roots: Vec<[VertexId; 3]>,
         barriers: HashSet<Edge>,
     ) -> Self {
-        let node = |(vertices, root)| Node { vertices, children: None, root, elements: 0..0 };
+        let node = |(vertices, root)| Node::leaf(vertices, root);
         let nodes = roots.into_iter().zip(0..).map(node).collect();
         Self { vertices, nodes, barriers }
     }
@@ -82,12 +82,12 @@ struct Growth {
 
 /// A squared length, ordered: never NaN, since vertices are finite.
 #[derive(PartialEq)]
-struct Length(f64);
+pub(super) struct Length(pub(super) f64);
 
 impl Length {
     /// The length, rounded to 24 binary digits: edges that are alike but for rounding stay alike,
     /// and their vertices decide, in whatever unit and wherever the scene is.
-    fn of(squared: f64) -> Self {
+    pub(super) fn of(squared: f64) -> Self {
         const LOST: u32 = f64::MANTISSA_DIGITS - f32::MANTISSA_DIGITS;
         let half = 1 << (LOST - 1);
         // Carries into the exponent as rounding up should; infinity stays above all.
@@ -119,20 +119,14 @@ impl<'a> Grower<'a> {
         let mut state = vec![Growth { density: 1.0, depth: 0 }; nodes.len()];
         for (id, node) in nodes.iter().enumerate() {
             // Halves come after what was halved.
-            match (node.children, plan.density) {
-                (Some(child), _) => {
-                    let depth = state[id].depth + 1;
-                    state[child as usize].depth = depth;
-                    state[child as usize + 1].depth = depth;
-                }
-                (None, Some(density)) => state[id].density = density[node.elements.start as usize],
-                (None, None) => {}
+            let depth = state[id].depth + 1;
+            node.children.clone().for_each(|part| state[part as usize].depth = depth);
+            if let (true, Some(density)) = (node.is_leaf(), plan.density) {
+                state[id].density = density[node.elements.start as usize];
             }
         }
-        let leaves: Vec<u32> = (0u32..)
-            .zip(&nodes)
-            .filter_map(|(id, node)| node.children.is_none().then_some(id))
-            .collect();
+        let leaves: Vec<u32> =
+            (0u32..).zip(&nodes).filter_map(|(id, node)| node.is_leaf().then_some(id)).collect();
         let mut grower = Self {
             plan,
             vertices,
@@ -213,11 +207,12 @@ impl<'a> Grower<'a> {
                 leaves.retain(|&l| l != leaf);
             }
         }
-        self.nodes[leaf as usize].children = Some(self.nodes.len() as u32);
+        let first = self.nodes.len() as u32;
+        self.nodes[leaf as usize].children = first..first + 2;
         self.leaves += 1;
         let Growth { density, depth } = self.state[leaf as usize];
         for vertices in [[a, middle, c], [middle, b, c]] {
-            self.nodes.push(Node { vertices, children: None, root, elements: 0..0 });
+            self.nodes.push(Node::leaf(vertices, root));
             self.state.push(Growth { density, depth: depth + 1 });
             // The other edges are in the queue already, for the leaf that this was.
             self.enter(self.nodes.len() as u32 - 1, |edge| edge.1 == middle);

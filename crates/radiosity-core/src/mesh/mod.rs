@@ -2,6 +2,7 @@
 //! others touch or cross them, less what earlier ones cover; patches shoot, leaves (elements) receive.
 
 mod bisect;
+mod centroid;
 mod cut;
 mod grade;
 mod patch;
@@ -14,7 +15,7 @@ use std::ops::Range;
 use glam::DVec3;
 use scene::{Face, Rgb, Scene, TriangleId, VertexId};
 
-use crate::config::MeshConfig;
+use crate::config::{MeshConfig, Split};
 use bisect::{Forest, Plan};
 use cut::Edge;
 use grade::Grade;
@@ -43,12 +44,24 @@ pub struct Root {
 pub struct Node {
     /// Corners, counter-clockwise seen from the lit side.
     pub vertices: [VertexId; 3],
-    /// The first of two children, which follow each other; `None` for a leaf.
-    pub children: Option<u32>,
+    /// The two or three nodes that it is split into; empty for a leaf.
+    pub children: Range<u32>,
     /// Which root it is part of.
     pub root: u32,
     /// The elements below it, or the one it is.
     pub elements: Range<u32>,
+}
+
+impl Node {
+    fn leaf(vertices: [VertexId; 3], root: u32) -> Self {
+        Self { vertices, children: 0..0, root, elements: 0..0 }
+    }
+
+    /// Whether it is an element.
+    #[must_use]
+    pub fn is_leaf(&self) -> bool {
+        self.children.is_empty()
+    }
 }
 
 /// A leaf of the forest: the unit of receiving.
@@ -161,7 +174,10 @@ impl Mesh {
     ) -> Self {
         let MeshConfig { least_area, most_depth, .. } = *config;
         let plan = Plan { grade, density, least_area, most_depth };
-        let Forest { vertices, nodes, barriers } = forest.grow(&plan, config.elements);
+        let Forest { vertices, nodes, barriers } = match (density, config.split) {
+            (Some(_), Split::Centroid) => forest.cut_at_centroids(&plan, config.elements),
+            _ => forest.grow(&plan, config.elements),
+        };
         let mut mesh = Self { vertices, roots, nodes, extent, covered, ..Self::default() };
         patch::number_elements(&mut mesh);
         patch::choose(&mut mesh, config.patch_elements.max(1));

@@ -14,10 +14,9 @@ pub(super) fn number_elements(mesh: &mut Mesh) {
 fn number(mesh: &mut Mesh, node: u32) {
     let first = mesh.elements.len() as u32;
     let node_ref = &mesh.nodes[node as usize];
-    if let Some(child) = node_ref.children {
+    if !node_ref.is_leaf() {
         // Depth is at most twice the binary logarithm of the edge ratio: no deep recursion.
-        number(mesh, child);
-        number(mesh, child + 1);
+        node_ref.children.clone().for_each(|child| number(mesh, child));
     } else {
         let (vertices, root) = (node_ref.vertices, node_ref.root);
         let area = triangle_area(mesh.corners(vertices));
@@ -31,15 +30,13 @@ pub(super) fn choose(mesh: &mut Mesh, most: usize) {
     let mut stack: Vec<u32> = (0..mesh.roots.len() as u32).rev().collect();
     while let Some(id) = stack.pop() {
         let node = &mesh.nodes[id as usize];
-        match node.children {
-            Some(child) if node.elements.len() > most => stack.extend([child + 1, child]),
-            _ => {
-                let corners = mesh.corners(node.vertices);
-                let (centroid, radius) = bounding(corners);
-                let elements = node.elements.clone();
-                mesh.patches.push(Patch { node: id, elements, centroid, radius });
-            }
+        if !node.is_leaf() && node.elements.len() > most {
+            stack.extend(node.children.clone().rev());
+            continue;
         }
+        let (centroid, radius) = bounding(mesh.corners(node.vertices));
+        let elements = node.elements.clone();
+        mesh.patches.push(Patch { node: id, elements, centroid, radius });
     }
 }
 

@@ -36,7 +36,7 @@ pub(super) fn of_points(scene: &Scene, coarse: Lit, fine: Lit, counted: Counted)
     let whole = Sides::of(scene, fine.mesh, fine.solution, counted);
     let mut sums = Sums::default();
     for (id, node) in coarse.mesh.nodes.iter().enumerate() {
-        if node.children.is_some() {
+        if !node.is_leaf() {
             continue;
         }
         let element = node.elements.start as usize;

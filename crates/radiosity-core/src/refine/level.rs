@@ -62,8 +62,9 @@ impl<E: Executor> Setting<'_, E> {
     /// The mesh of about so many elements: of elements of one size, or finer than the one before
     /// where its light says so.
     pub(super) fn mesh(&self, elements: usize, before: Option<&Level>) -> Mesh {
-        let RefineConfig { least_area, most_depth, .. } = self.refining;
-        let config = MeshConfig { least_area, most_depth, ..MeshConfig::with_elements(elements) };
+        let RefineConfig { least_area, most_depth, split, .. } = self.refining;
+        let config =
+            MeshConfig { least_area, most_depth, split, ..MeshConfig::with_elements(elements) };
         match before {
             Some(level) if self.adaptive() => {
                 let Level { mesh, solution, counted, .. } = level;

@@ -6,12 +6,12 @@
 //! edge h errs by some c·h². Elements of equal error times area have a density that goes with
 //! √c. All light counts together, so a dim shooter's shadow splits nothing.
 
-use scene::Rgb;
+use scene::{Rgb, VertexId};
 
 use super::difference::Lit;
 use super::surface::Counted;
 use crate::executor::Executor;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, triangle_area};
 
 /// Roots per run of an executor.
 const RUN: usize = 64;
@@ -78,20 +78,33 @@ struct Mark<'a> {
 impl Mark<'_> {
     /// The exitance at the corners of a node; on the way, marks the elements below it.
     fn visit(&mut self, id: u32) -> [Rgb; 3] {
-        let node = &self.lit.mesh.nodes[id as usize];
-        let Some(child) = node.children else {
+        let mesh = self.lit.mesh;
+        let node = &mesh.nodes[id as usize];
+        if node.is_leaf() {
             return self.lit.solution.elements[node.elements.start as usize].corner_exitance;
-        };
-        // The halves of a–b–c are a–m–c and m–b–c.
-        let [a, m, c] = self.visit(child);
-        let [other_m, b, other_c] = self.visit(child + 1);
-        let vertices = self.lit.mesh.nodes[child as usize].vertices;
-        let far = self.lit.mesh.nodes[child as usize + 1].vertices[1];
-        let place = |v: scene::VertexId| self.lit.mesh.vertices[v.index()];
-        let squared = place(vertices[0]).distance_squared(place(far));
+        }
+        let parts: Vec<[Rgb; 3]> = node.children.clone().map(|part| self.visit(part)).collect();
         let half = |p: Rgb, q: Rgb| (p + q) / 2.0;
-        let (m, c) = (half(m, other_m), half(c, other_c));
-        let surplus = (m - half(a, b)).abs().share_of(self.mean).max_channel();
+        let first = mesh.nodes[node.children.start as usize].vertices;
+        // At the corners, starting with the first part's; at the new vertex; interpolated there.
+        let (corners, new, between, squared) = match *parts {
+            // The halves of a–b–c are a–m–c and m–b–c.
+            [[a, m, c], [other_m, b, other_c]] => {
+                let far = mesh.nodes[node.children.start as usize + 1].vertices[1];
+                let place = |v: VertexId| mesh.vertices[v.index()];
+                let squared = place(first[0]).distance_squared(place(far));
+                ([a, b, half(c, other_c)], half(m, other_m), half(a, b), squared)
+            }
+            // The thirds are a–b–m, b–c–m and c–a–m.
+            [[a, b, m], [other_b, c, m2], [other_c, other_a, m3]] => {
+                let corners = [half(a, other_a), half(b, other_b), half(c, other_c)];
+                let between = corners.into_iter().sum::<Rgb>() / 3.0;
+                let area = triangle_area(mesh.corners(node.vertices));
+                (corners, (m + m2 + m3) / 3.0, between, 2.0 * area)
+            }
+            _ => unreachable!("nodes are split into two or three"),
+        };
+        let surplus = (new - between).abs().share_of(self.mean).max_channel();
         let range = node.elements.start - self.first..node.elements.end - self.first;
         for slot in &mut self.slots[range.start as usize..range.end as usize] {
             if slot.by < ANCESTORS {
@@ -100,13 +113,8 @@ impl Mark<'_> {
             }
         }
         // As the node's own vertices are turned.
-        let own = node.vertices;
-        let turn = own.iter().position(|v| *v == vertices[0]).unwrap_or(0);
-        let mut corners = [Rgb::ZERO; 3];
-        for (i, value) in [a, b, c].into_iter().enumerate() {
-            corners[(i + turn) % 3] = value;
-        }
-        corners
+        let turn = node.vertices.iter().position(|v| *v == first[0]).unwrap_or(0);
+        [0, 1, 2].map(|i| corners[(i + 3 - turn) % 3])
     }
 }
 

@@ -133,8 +133,8 @@ fn light_at(mesh: &Mesh, solution: &Solution, roots: &[u32], place: DVec3) -> Op
         // What an earlier surface covers has no light of its own.
         return None;
     }
-    while let Some(child) = mesh.nodes[node as usize].children {
-        node = deepest(child, child + 1);
+    while let Some(child) = mesh.nodes[node as usize].children.clone().reduce(deepest) {
+        node = child;
     }
     let node = &mesh.nodes[node as usize];
     let element = &solution.elements[node.elements.start as usize];

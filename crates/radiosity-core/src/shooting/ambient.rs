@@ -8,6 +8,8 @@
 //! Greenberg 1988, but exact: deflation with one vector for each part of the scene that light
 //! joins, so that none gets to where it cannot go).
 
+mod keep;
+
 use scene::Rgb;
 
 use super::state::State;
@@ -68,16 +70,8 @@ pub(super) struct Moved {
 impl Ambient {
     pub(super) fn new(mesh: &Mesh, receivers: usize) -> Self {
         let patches = mesh.patches.len();
-        let mut patch_of = vec![0; mesh.points.len()];
-        for (patch, id) in mesh.patches.iter().zip(0u32..) {
-            for e in patch.elements.clone() {
-                for p in mesh.elements[e as usize].points {
-                    patch_of[p as usize] = id;
-                }
-            }
-        }
         Self {
-            patch_of,
+            patch_of: patch_of(mesh),
             sees: vec![None; receivers],
             joined: (0..patches as u32).collect(),
             phase: Phase::Watching,
@@ -238,4 +232,17 @@ impl Ambient {
         state.sum_patches(mesh);
         (factors, gained.value())
     }
+}
+
+/// The patch of each of the mesh's points, or one of them.
+fn patch_of(mesh: &Mesh) -> Vec<u32> {
+    let mut patch_of = vec![0; mesh.points.len()];
+    for (patch, id) in mesh.patches.iter().zip(0u32..) {
+        for e in patch.elements.clone() {
+            for p in mesh.elements[e as usize].points {
+                patch_of[p as usize] = id;
+            }
+        }
+    }
+    patch_of
 }

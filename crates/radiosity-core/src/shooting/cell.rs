@@ -43,8 +43,8 @@ pub(super) struct Cell {
 /// How a cell can be split.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Parts {
-    /// Two cells of the mesh, with unshot exitances of their own; the index of the first.
-    Mesh(u32),
+    /// Cells of the mesh, with unshot exitances of their own: the first, and the one after the last.
+    Mesh(u32, u32),
     /// Four geometric quarters, alike, this many times more.
     Quarters(u8),
 }
@@ -88,9 +88,11 @@ pub(super) fn cells_of(
     let mut nodes = vec![patch.node];
     let mut i = 0;
     while i < cells.len() {
-        if let Some(child) = mesh.nodes[nodes[i] as usize].children {
-            cells[i].parts = Parts::Mesh(cells.len() as u32);
-            for node in [child, child + 1] {
+        let children = mesh.nodes[nodes[i] as usize].children.clone();
+        if !children.is_empty() {
+            let first = cells.len() as u32;
+            cells[i].parts = Parts::Mesh(first, first + children.len() as u32);
+            for node in children {
                 nodes.push(node);
                 cells.push(cell_of(node));
             }

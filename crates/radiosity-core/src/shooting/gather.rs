@@ -8,6 +8,7 @@ use super::transfer::{Receivers, Scratch, Shot};
 use super::{Shooting, sides};
 use crate::executor::Executor;
 use crate::mesh::ReceiverPoint;
+use crate::observer::Stopper;
 
 /// Points per run of an executor: few, since there are few points.
 const RUN: usize = 32;
@@ -36,6 +37,15 @@ impl<E: Executor> Shooting<'_, E> {
     /// Time: points × patches × cells, about that of a shot per 1,000 points and patch.
     #[must_use]
     pub fn gather(&self, which: &[u32]) -> Vec<Gathered> {
+        self.gather_unless(which, None).0
+    }
+
+    /// As [`Shooting::gather`], if nothing stops it: `false` if it was stopped on the way.
+    pub(crate) fn gather_unless(
+        &self,
+        which: &[u32],
+        stopper: Option<&Stopper>,
+    ) -> (Vec<Gathered>, bool) {
         let mut slots = vec![Gathered::default(); which.len()];
         let shone = self.shone();
         let detail = Detail::second_estimate(&self.config);

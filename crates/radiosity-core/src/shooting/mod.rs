@@ -146,7 +146,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
                 return reason;
             }
             let done = self.step_unless(stopper.as_ref());
-            if !done || observer.step(&self.report()) == Control::Stop {
+            if !done || self.tell(observer) == Control::Stop {
                 return self.finished().unwrap_or(StopReason::Stopped);
             }
         }
@@ -203,10 +203,20 @@ impl<'a, E: Executor> Shooting<'a, E> {
                 return Control::Continue;
             }
             let done = self.shoot(&chosen, stopper.as_ref());
-            if !done || observer.step(&self.report()) == Control::Stop {
+            if !done || self.tell(observer) == Control::Stop {
                 return Control::Stop;
             }
         }
+    }
+
+    /// Tells of a step, and shows the light if that is wanted.
+    fn tell(&self, observer: &mut impl Observer) -> Control {
+        let report = self.report();
+        let control = observer.step(&report);
+        if control == Control::Continue && observer.wants_solution(&report) {
+            observer.solution(&report, self.mesh, &self.solution());
+        }
+        control
     }
 
     /// What the observer hears.

@@ -157,7 +157,7 @@ impl Shot<'_> {
         let near = receiver.position.distance(cell.middle) < self.open_radii * cell.radius;
         match cell.parts {
             Parts::Quarters(0) => return false,
-            Parts::Mesh(_) if near => return true,
+            Parts::Mesh(..) if near => return true,
             Parts::Quarters(_) if cell.open < 1.0 && near => return true,
             _ => {}
         }
@@ -247,9 +247,9 @@ impl Run<'_> {
         self.test_visibility(cell);
         if self.scratch.waiting.len() > last {
             match cell.parts {
-                Parts::Mesh(child) => {
-                    for c in [child, child + 1] {
-                        self.descend(&shot.cells[c as usize], last);
+                Parts::Mesh(first, end) => {
+                    for c in &shot.cells[first as usize..end as usize] {
+                        self.descend(c, last);
                     }
                 }
                 Parts::Quarters(left) => {
