@@ -1,15 +1,19 @@
 //! The command line as it is typed.
 
+mod checkpoint;
 mod form_factors;
 mod shooting;
+mod snapshot;
 
 use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
+pub(crate) use checkpoint::CheckpointArgs;
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 pub(crate) use shooting::{ShootingArgs, SplitArg};
+pub(crate) use snapshot::Every;
 
 /// Turns a triangle scene into its diffuse global illumination.
 ///
@@ -25,7 +29,7 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Light a scene and write it out
-    Solve(SolveArgs),
+    Solve(Box<SolveArgs>),
     /// Say what a scene file holds, what looks wrong in it, and what a solve would use
     Plan(PlanArgs),
     /// Write the form factors between groups or triangles: the share of the light leaving one
@@ -102,6 +106,9 @@ Examples:
   radiosity solve room.tri --error 0.5% --max-time 60s -o fine.csv --report fine.json
   radiosity solve room.tri --elements 50000 --converge 0.01% -o fixed.csv
   radiosity solve room.tri --probe points.csv -o at-points.probe.csv
+  radiosity solve hall.obj --max-memory 2GB --snapshot 30s -o hall.glb
+  radiosity solve hall.obj --error 0.1% -o hall.glb --checkpoint hall.ckpt
+  radiosity solve hall.obj --error 0.1% -o hall.glb --checkpoint hall.ckpt --resume hall.ckpt
 
 Formats by extension:
   .csv  triangle,area,B_r,B_g,B_b: area mean of exitance, a row per input triangle
@@ -109,7 +116,7 @@ Formats by extension:
   .glb  vertex colours and linear _RADIOSITY        .png  a picture
   .probe.csv  exitance at the places of --probe
 
-Exit codes: 0 done, 1 failed, 2 wrong command line.")]
+Exit codes: 0 done, or stopped by a limit or Ctrl-C; 1 failed, 2 wrong command line.")]
 pub(crate) struct SolveArgs {
     /// Scene file: .tri, .vs3, .obj (with its .mtl), .gltf or .glb [default: the bundled Cornell box]
     #[arg(value_name = "SCENE")]
@@ -129,7 +136,9 @@ pub(crate) struct SolveArgs {
     #[arg(long, value_name = "X", value_parser = share, conflicts_with_all = ["elements", "converge"])]
     pub(crate) error: Option<f64>,
 
-    /// Stop refining after this time, as 500ms, 60s, 10m or 1h, and state what was reached
+    /// Stop the solve after this time, as 500ms, 60s, 10m or 1h, within a fraction of a second,
+    /// write what was reached and state how wrong that is. Ctrl-C does the same at any time, and
+    /// a second one ends the program
     #[arg(long, value_name = "TIME", value_parser = time)]
     pub(crate) max_time: Option<Duration>,
 
@@ -137,9 +146,16 @@ pub(crate) struct SolveArgs {
     #[arg(long, value_name = "N")]
     pub(crate) max_elements: Option<usize>,
 
-    /// Refine to no more elements than fit into this, as 500MB or 4GiB
+    /// Take no more memory than this, as 500MB or 4GiB: refine to fewer elements, or make fewer
+    /// than --elements. Foreseen before each level, and on Linux compared with what is taken
     #[arg(long, value_name = "SIZE", value_parser = memory)]
     pub(crate) max_memory: Option<u64>,
+
+    /// Write the light on its way beside each output, as lit.00001.glb beside lit.glb: every so
+    /// many shots, or this long after the one before. While refining, a level begins in the dark
+    /// on a finer mesh; for a film, fix the mesh with --elements --no-statement
+    #[arg(long, value_name = "every:N|TIME", value_parser = snapshot::every)]
+    pub(crate) snapshot: Option<Every>,
 
     /// Shoot until at most this share of the emitted power is unshot, as 1e-3 or 0.1%, on a
     /// mesh of --elements [default: 1e-3 if --elements is given]
@@ -165,6 +181,9 @@ pub(crate) struct SolveArgs {
 
     #[command(flatten)]
     pub(crate) read: ReadArgs,
+
+    #[command(flatten)]
+    pub(crate) keeping: CheckpointArgs,
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,

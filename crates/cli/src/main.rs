@@ -5,13 +5,17 @@
 
 mod args;
 mod bundled;
+mod checkpoint;
 mod commands;
 mod failure;
 mod files;
+mod interrupt;
+mod memory;
 mod pipeline;
 mod report;
 mod screen;
 mod settings;
+mod snapshot;
 
 use std::process::ExitCode;
 
@@ -24,7 +28,7 @@ fn main() -> ExitCode {
     let args = Args::parse();
     let result = match args.command {
         None => commands::solve::bundled(),
-        Some(Command::Solve(args)) => settings::solve(args).and_then(|s| commands::solve::run(&s)),
+        Some(Command::Solve(args)) => settings::solve(*args).and_then(|s| commands::solve::run(&s)),
         Some(Command::Plan(args)) => commands::plan::run(&args),
         Some(Command::Convert(args)) => commands::convert::run(&args),
         Some(Command::FormFactors(args)) => {

@@ -1,23 +1,32 @@
 //! The way of the light: scene → mesh → occluder → shooting → solution, each step timed.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use accel::{Bvh, BvhConfig, Nothing, Occluder, Octree, OctreeConfig};
 use radiosity_core::{
-    Asked, Census, Control, Executor, LevelReport, Mesh, MeshConfig, Observer, Probe, RefineConfig,
-    Refined, ShootingConfig, Statement, StepReport, StopReason, refine,
+    Asked, Census, Control, Executor, Kept, LevelReport, Mesh, MeshConfig, Observer, Probe,
+    Reached, RefineConfig, Refined, ShootingConfig, Statement, StepReport, StopReason, Stopper,
+    refine, resume,
 };
 use radiosity_par::{Loop, Pool};
-use scene::Scene;
+use scene::{Scene, Solution};
 
 use crate::args::AccelArg;
+use crate::checkpoint::{self, Identity, Keeper};
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::memory::{self, Budget};
 use crate::screen;
-use crate::settings::{Read, Solve, Work};
+use crate::settings::{MOST_ELEMENTS, Read, Solve, Work};
+use crate::snapshot::{Snapshot, Snapshots};
 
 /// The unshot share must fall by this factor before the curve gets another point: 23 points
 /// per decade, whatever the number of shots.
 const CURVE_STEP: f64 = 0.9;
+
+/// How Ctrl-C is called where limits have the names of their flags.
+pub(crate) const INTERRUPT: &str = "interrupt";
 
 /// What finds the occluders, and who does the work.
 pub(crate) struct Prepared {
@@ -35,6 +44,7 @@ pub(crate) struct Solved {
     pub(crate) refined: Refined,
     pub(crate) seconds: f64,
     pub(crate) curve: Vec<CurvePoint>,
+    pub(crate) snapshots: Vec<Snapshot>,
     /// The limit that ended the work before its goal.
     pub(crate) limit: Option<&'static str>,
 }
@@ -87,19 +97,37 @@ pub(crate) fn solve(
     prepared: &Prepared,
     settings: &Solve,
     probes: &[Probe],
+    snapshots: Option<Snapshots<'_>>,
 ) -> Result<Solved, Failure> {
+    let interrupt = Interrupt::listen();
     let exchange = settings.read.exchange;
     let how = &settings.shooting;
     let config = ShootingConfig {
         exchange,
         schedule: how.schedule,
+        overshoot: how.overshoot,
+        correction: how.correction,
         ..ShootingConfig::until(settings.goal.converge())
     };
     let asked = settings.goal.asked(scene.triangles().len());
-    let (most, which) = settings.limits.most_elements();
+    let clock = Instant::now();
+    let budget = Budget::of(settings, scene).map(|budget| budget.with_pieces(pieces(scene)));
+    let schedule = budget.as_ref().map_or(how.schedule, Budget::schedule);
+    let config = ShootingConfig { schedule, ..config };
+    let fitting = match &budget {
+        Some(budget) => fitting(budget, asked)?,
+        None => usize::MAX,
+    };
+    let most = settings.limits.elements.unwrap_or(MOST_ELEMENTS).min(MOST_ELEMENTS);
     let mut watch = Watch {
-        clock: Instant::now(),
+        clock,
         most: settings.limits.time,
+        interrupt: interrupt.clone(),
+        budget,
+        kept: 0,
+        coarsened: fitting < most,
+        keeper: None,
+        snapshots,
         curve: Vec::new(),
         step: 0,
         refining: matches!(asked, Asked::Error(_)),
@@ -108,21 +136,64 @@ pub(crate) fn solve(
     let pool = &prepared.pool;
     let refining = RefineConfig {
         asked,
-        most_elements: most,
+        most_elements: most.min(fitting),
         split: how.split,
         least_area: how.least_area,
         most_depth: how.most_depth.unwrap_or(u32::MAX),
     };
-    let refined = refine(scene, bvh, occluder, pool, config, refining, probes, &mut watch);
+    let identity = Identity::of(scene, prepared.occluder_name, &config, &refining, probes);
+    watch.keeper = Keeper::of(&settings.keeping, &identity);
+    let refined = match &settings.keeping.resume {
+        None => refine(scene, bvh, occluder, pool, config, refining, probes, &mut watch),
+        Some(path) => {
+            let kept = checkpoint::read(path, &identity)?;
+            watch.kept = kept.finished_elements();
+            screen::say(&format!("{}: going on from there", path.display()));
+            resume(kept, scene, bvh, occluder, pool, config, refining, probes, &mut watch)
+                .map_err(|e| checkpoint::inconsistent(path, e))?
+        }
+    };
     refuse_endless(refined.reason)?;
     let limit = match refined.reached {
-        radiosity_core::Reached::Stopped => Some("--max-time"),
-        radiosity_core::Reached::ElementLimit => Some(which),
-        radiosity_core::Reached::SizeLimit => Some("--min-area or --max-depth"),
+        Reached::Stopped if interrupt.heard() => Some(INTERRUPT),
+        Reached::Stopped => Some("--max-time"),
+        Reached::ElementLimit if watch.coarsened => Some("--max-memory"),
+        Reached::ElementLimit if settings.limits.elements.is_some() => Some("--max-elements"),
+        Reached::ElementLimit => Some("the widest mesh there is"),
+        Reached::SizeLimit => Some("--min-area or --max-depth"),
         _ => None,
     };
+    if let Some(keeper) = watch.keeper.filter(|_| refined.reached == Reached::Stopped) {
+        keeper.say_how_to_go_on();
+    }
     let seconds = watch.clock.elapsed().as_secs_f64();
-    Ok(Solved { refined, seconds, curve: watch.curve, limit })
+    let snapshots = watch.snapshots.map_or_else(Vec::new, |snapshots| {
+        snapshots.say_failed();
+        snapshots.written
+    });
+    Ok(Solved { refined, seconds, curve: watch.curve, snapshots, limit })
+}
+
+/// What the scene's triangles are cut into, which is known only by cutting them.
+fn pieces(scene: &Scene) -> usize {
+    Mesh::from_scene(scene, &MeshConfig::with_elements(1)).elements().len()
+}
+
+/// How many elements fit into memory; warns if more are asked for.
+fn fitting(budget: &Budget, asked: Asked) -> Result<usize, Failure> {
+    budget.check()?;
+    let fitting = budget.last_level(!matches!(asked, Asked::Unstated(_))).max(1);
+    if let Asked::Elements(n) | Asked::Unstated(n) = asked
+        && n > fitting
+    {
+        screen::warning(&format!(
+            "--max-memory: {} elements instead of {}, which may take {}",
+            screen::count(fitting as u64),
+            screen::count(n as u64),
+            memory::size(budget.bytes(n))
+        ));
+    }
+    Ok(fitting)
 }
 
 impl Prepared {
@@ -136,26 +207,75 @@ impl Prepared {
     }
 }
 
-/// Looks at the clock, and keeps the curve.
-struct Watch {
+/// Looks at the clock and at memory, hears of interrupts, keeps the curve, and writes snapshots and
+/// checkpoints.
+struct Watch<'a> {
     clock: Instant,
     most: Option<Duration>,
+    interrupt: Interrupt,
+    budget: Option<Budget>,
+    /// Elements of the last finished level.
+    kept: usize,
+    /// Memory allows fewer elements than all other limits.
+    coarsened: bool,
+    keeper: Option<Keeper>,
+    snapshots: Option<Snapshots<'a>>,
     curve: Vec<CurvePoint>,
     /// Points of the curve on earlier levels.
     step: usize,
     refining: bool,
 }
 
-impl Observer for Watch {
+impl Watch<'_> {
+    /// Whether time is up, or someone said stop.
+    fn stopped(&self) -> bool {
+        self.interrupt.heard() || self.most.is_some_and(|most| self.clock.elapsed() >= most)
+    }
+}
+
+impl Observer for Watch<'_> {
     fn step(&mut self, report: &StepReport) -> Control {
         let last = self.curve[self.step..].last().map(|point| point.work.unshot);
         if last.is_none_or(|unshot| report.unshot <= unshot * CURVE_STEP) {
             let seconds = self.clock.elapsed().as_secs_f64();
             self.curve.push(CurvePoint { seconds, work: *report, level: None });
         }
-        match self.most {
-            Some(most) if self.clock.elapsed() >= most => Control::Stop,
-            _ => Control::Continue,
+        if self.stopped() { Control::Stop } else { Control::Continue }
+    }
+
+    fn stopper(&self) -> Option<Stopper> {
+        let (clock, most, interrupt) = (self.clock, self.most, self.interrupt.clone());
+        Some(Arc::new(move || {
+            interrupt.heard() || most.is_some_and(|most| clock.elapsed() >= most)
+        }))
+    }
+
+    fn elements(&mut self, planned: usize) -> usize {
+        let Some(budget) = &self.budget else { return planned };
+        let allowed = budget.next_level(self.kept);
+        self.coarsened |= allowed < planned;
+        allowed
+    }
+
+    fn keeps(&mut self) -> bool {
+        let stopped = self.stopped();
+        self.keeper.as_ref().is_some_and(|keeper| stopped || keeper.due())
+    }
+
+    fn keep(&mut self, kept: &Kept<'_>) {
+        if let Some(keeper) = &mut self.keeper {
+            keeper.keep(kept);
+        }
+    }
+
+    fn wants_solution(&mut self, report: &StepReport) -> bool {
+        let elapsed = self.clock.elapsed();
+        self.snapshots.as_ref().is_some_and(|snapshots| snapshots.due(report, elapsed))
+    }
+
+    fn solution(&mut self, report: &StepReport, _: &Mesh, solution: &Solution) {
+        if let Some(snapshots) = &mut self.snapshots {
+            snapshots.take(report, solution, || self.clock.elapsed());
         }
     }
 
@@ -164,6 +284,7 @@ impl Observer for Watch {
         let level = Some((report.elements, report.statement));
         self.curve.push(CurvePoint { seconds, work: report.work, level });
         self.step = self.curve.len();
+        self.kept = report.elements;
         if self.refining {
             screen::level(report, seconds);
         }

@@ -12,6 +12,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::pipeline::{self, Prepared, Solved};
 use crate::settings::{Goal, Solve};
+use crate::snapshot::Snapshot;
 use error::ErrorFacts;
 
 /// Version of the fields and their meaning.
@@ -32,6 +33,7 @@ pub(crate) struct Report {
     energy: Energy,
     seconds: Seconds,
     curve: Vec<CurvePoint>,
+    snapshots: Vec<SnapshotFacts>,
     outputs: Vec<String>,
 }
 
@@ -120,6 +122,31 @@ struct CurvePoint {
     error: Option<f64>,
     largest: Option<f64>,
     points: Option<f64>,
+}
+
+/// The light on its way.
+#[derive(Serialize)]
+struct SnapshotFacts {
+    number: u32,
+    seconds: f64,
+    shots: u64,
+    unshot: f64,
+    elements: usize,
+    files: Vec<String>,
+}
+
+impl SnapshotFacts {
+    fn of(snapshot: &Snapshot) -> Self {
+        let Snapshot { number, seconds, elements, work, files } = snapshot;
+        Self {
+            number: *number,
+            seconds: *seconds,
+            shots: work.shots,
+            unshot: work.unshot,
+            elements: *elements,
+            files: files.iter().map(|path| path.display().to_string()).collect(),
+        }
+    }
 }
 
 impl CurvePoint {
@@ -271,6 +298,7 @@ impl Report {
                 output: run.output_seconds,
             },
             curve: solved.curve.iter().map(CurvePoint::of).collect(),
+            snapshots: solved.snapshots.iter().map(SnapshotFacts::of).collect(),
             outputs: run.outputs,
         }
     }

@@ -2,27 +2,29 @@
 
 mod form_factors;
 mod goal;
+mod keeping;
 
 use std::path::PathBuf;
 
 use output::{Exposure, Format};
-use radiosity_core::{Exchange, MeshConfig, Schedule, Split};
+use radiosity_core::{Correction, Exchange, MeshConfig, Schedule, Split};
 use radiosity_par::Loop;
 use scene_import::SidesRule;
 
 use crate::args::{
-    AccelArg, PictureArgs, ReadArgs, ShootingArgs, SidesArg, SolveArgs, SplitArg, WorkArgs,
+    AccelArg, Every, PictureArgs, ReadArgs, ShootingArgs, SidesArg, SolveArgs, SplitArg, WorkArgs,
 };
 use crate::failure::Failure;
 pub(crate) use form_factors::{FormFactors, TableTarget, form_factors};
-pub(crate) use goal::{BYTES_PER_ELEMENT, Goal, Limits};
 use goal::{DEFAULT_CONVERGE, DEFAULT_ERROR};
+pub(crate) use goal::{Goal, Limits};
+pub(crate) use keeping::Keeping;
 
 /// Elements asked for when the command line does not say.
 const DEFAULT_ELEMENTS: usize = 10_000;
 
 /// Ids are 32 bits wide, and a forest has up to two nodes per element.
-const MOST_ELEMENTS: usize = 1 << 30;
+pub(crate) const MOST_ELEMENTS: usize = 1 << 30;
 
 /// What `solve` will do.
 #[derive(Clone, Debug)]
@@ -32,6 +34,9 @@ pub(crate) struct Solve {
     pub(crate) outputs: Vec<Target>,
     pub(crate) report: Option<PathBuf>,
     pub(crate) probe: Option<PathBuf>,
+    /// How often the light on its way is written, too.
+    pub(crate) snapshot: Option<Every>,
+    pub(crate) keeping: Keeping,
     pub(crate) goal: Goal,
     pub(crate) limits: Limits,
     pub(crate) work: Work,
@@ -60,9 +65,11 @@ pub(crate) struct Work {
 }
 
 /// Who shoots with whom, how threads share the work, and where elements are split.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Shooting {
     pub(crate) schedule: Schedule,
+    pub(crate) overshoot: bool,
+    pub(crate) correction: Correction,
     pub(crate) sharing: Loop,
     pub(crate) split: Split,
     pub(crate) least_area: f64,
@@ -116,9 +123,12 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
         let message = "--no-statement: refining needs the statement; fix the work with --elements";
         return Err(Failure::Usage(message.into()));
     }
-    if fixed && (args.max_elements.is_some() || args.max_memory.is_some()) {
-        let message = "--max-elements and --max-memory limit refining; --elements and --converge \
-                       fix the mesh";
+    if fixed && args.max_elements.is_some() {
+        let message = "--max-elements limits refining; --elements and --converge fix the mesh";
+        return Err(Failure::Usage(message.into()));
+    }
+    if args.snapshot.is_some() && !outputs.iter().any(|t| matches!(t, Target::File(_))) {
+        let message = "--snapshot: name a file that its own stand beside, such as -o lit.glb";
         return Err(Failure::Usage(message.into()));
     }
     if args.error == Some(0.0) {
@@ -141,6 +151,8 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
         outputs,
         report: args.report,
         probe: args.probe,
+        snapshot: args.snapshot,
+        keeping: keeping::keeping(args.keeping)?,
         goal,
         limits: Limits {
             time: args.max_time,
@@ -174,11 +186,27 @@ fn shooting(args: &ShootingArgs, fixed: bool) -> Result<Shooting, Failure> {
     }
     Ok(Shooting {
         schedule: args.schedule,
+        overshoot: !args.no_overshoot,
+        correction: if args.no_corrections { Correction::Never } else { Correction::Auto },
         sharing: args.sharing,
         split: args.split.into(),
         least_area: args.min_area,
         most_depth: args.max_depth,
     })
+}
+
+impl Default for Shooting {
+    fn default() -> Self {
+        Self {
+            schedule: Schedule::Auto,
+            overshoot: true,
+            correction: Correction::Auto,
+            sharing: Loop::Tasks,
+            split: Split::LongestEdge,
+            least_area: 0.0,
+            most_depth: None,
+        }
+    }
 }
 
 /// Resolves the number of threads.
@@ -261,7 +289,7 @@ mod tests {
         let words = line.split_whitespace();
         let args = Args::try_parse_from(["radiosity", "solve"].into_iter().chain(words));
         match args.map_err(|e| Failure::Usage(e.to_string()))?.command {
-            Some(Command::Solve(args)) => solve(args),
+            Some(Command::Solve(args)) => solve(*args),
             other => panic!("{other:?}"),
         }
     }
@@ -278,10 +306,18 @@ mod tests {
         assert_eq!(s.goal.asked(12), Asked::Elements(5));
         let s = resolve("-o a.csv --converge 1% --no-statement").unwrap();
         assert_eq!(s.goal.asked(12), Asked::Unstated(10_000));
-        let s = resolve("-o a.csv --max-elements 1000 --max-memory 1MB").unwrap();
-        assert_eq!(s.limits.most_elements(), (1000, "--max-elements"));
-        let s = resolve("-o a.csv --max-elements 2000 --max-memory 750kB").unwrap();
-        assert_eq!(s.limits.most_elements(), (1000, "--max-memory"));
+        let s = resolve("-o a.csv --elements 1000 --max-memory 1MB --snapshot every:9").unwrap();
+        assert_eq!((s.limits.memory, s.snapshot), (Some(1_000_000), Some(Every::Shots(9))));
+    }
+
+    #[test]
+    fn checkpoints_have_a_file_and_a_time() {
+        let keeping = |line| resolve(line).unwrap().keeping;
+        let s = keeping("-o a.csv --checkpoint a.ckpt");
+        assert_eq!((s.checkpoint, s.every.as_secs(), s.resume), (Some("a.ckpt".into()), 30, None));
+        let s = keeping("-o a.csv --checkpoint a.ckpt --every 2m --resume a.ckpt");
+        assert_eq!((s.checkpoint, s.every.as_secs()), (s.resume, 120));
+        assert_eq!(keeping("-o a.csv --resume b.ckpt").resume, Some("b.ckpt".into()));
     }
 
     #[test]
@@ -312,7 +348,14 @@ mod tests {
             "-o a.csv --max-elements 0",
             "-o a.csv --max-time 0",
             "-o a.csv --probe points.csv",
+            "-o - --snapshot 1s",
+            "-o a.csv --snapshot 5",
             "-o a.probe.csv",
+            "-o a.csv --every 30s",
+            "-o a.csv --resume a.ckpt --every 30s",
+            "-o a.csv --checkpoint a.ckpt --every 0",
+            "-o a.csv --checkpoint -",
+            "-o a.csv --resume -",
         ] {
             assert!(matches!(resolve(line), Err(Failure::Usage(_))), "{line}");
         }

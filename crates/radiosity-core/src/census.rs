@@ -113,7 +113,7 @@ impl Census {
         executor.for_each(&mut work, |((number, patch), slots)| {
             // Patches of one plane must not all look the same way.
             let shift = spread(*number);
-            if number.is_multiple_of(RUN as u32) && stopped() {
+            if stopped() {
                 return;
             }
             for (i, slot) in (0..).zip(slots.iter_mut()) {

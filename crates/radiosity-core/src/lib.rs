@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod census;
+mod checkpoint;
 mod config;
 mod energy;
 mod executor;
@@ -13,10 +14,13 @@ mod refine;
 mod shooting;
 
 pub use census::{Census, Fate};
+pub use checkpoint::{Checkpoint, Inconsistent, Kept};
 pub use config::{Correction, Exchange, MeshConfig, Schedule, ShootingConfig, Split, StopRule};
 pub use energy::{Ledger, RgbSum, Sum};
 pub use executor::{Executor, Sequential};
 pub use mesh::Mesh;
 pub use observer::{Control, LevelReport, Observer, StepReport, Stopper};
-pub use refine::{Asked, Parts, Probe, Reached, RefineConfig, Refined, Stated, Statement, refine};
+pub use refine::{
+    Asked, Parts, Probe, Reached, RefineConfig, Refined, Stated, Statement, refine, resume,
+};
 pub use shooting::{DIVERGED, Gathered, Remaining, Shooting, StopReason};

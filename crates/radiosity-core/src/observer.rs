@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use scene::Solution;
 
+use crate::checkpoint::Kept;
 use crate::mesh::Mesh;
 use crate::refine::Statement;
 
@@ -72,6 +73,16 @@ pub trait Observer {
 
     /// The light that was wanted, unshot light included, on the present level's mesh.
     fn solution(&mut self, _: &StepReport, _: &Mesh, _: &Solution) {}
+
+    /// Whether the state is to be kept now; asked after each step, and where one was stopped on
+    /// the way.
+    fn keeps(&mut self) -> bool {
+        false
+    }
+
+    /// The state that was to be kept, from which [`crate::resume`] goes on. It is whole only
+    /// within [`crate::refine`] and [`crate::resume`].
+    fn keep(&mut self, _: &Kept<'_>) {}
 }
 
 /// Hears nothing, stops nothing.

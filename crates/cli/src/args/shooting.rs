@@ -14,6 +14,14 @@ pub(crate) struct ShootingArgs {
     #[arg(long, value_name = "S", default_value = "auto", value_parser = schedule)]
     pub(crate) schedule: Schedule,
 
+    /// Shoot what there is, and not in advance what patches will still receive
+    #[arg(long)]
+    pub(crate) no_overshoot: bool,
+
+    /// Leave uniform light to the shots where little is absorbed, without ambient corrections
+    #[arg(long)]
+    pub(crate) no_corrections: bool,
+
     /// How threads share the work of a step: `tasks` (stealing from each other), `static`,
     /// `dynamic:N` or `guided:N`. The result does not depend on it
     #[arg(long = "loop", value_name = "L", default_value_t = Loop::Tasks)]

@@ -10,10 +10,11 @@ use scene_import::Imported;
 use crate::args::PlanArgs;
 use crate::commands::solve;
 use crate::failure::Failure;
+use crate::memory;
 use crate::pipeline::{self, Prepared};
 use crate::report::total_area;
 use crate::screen::{count, percent, result, seconds};
-use crate::settings::{self, BYTES_PER_ELEMENT};
+use crate::settings;
 
 /// Reads the scene, builds what a solve would use, and prints both.
 pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
@@ -82,13 +83,13 @@ fn say_plan(
     census: &Census,
     time: Duration,
 ) -> Result<(), Failure> {
-    let elements = mesh.elements().len() as u64;
+    let elements = mesh.elements().len();
     result(&format!(
-        "mesh      {} elements in {} patches, {} receiver points, about {} MB ({})",
-        count(elements),
+        "mesh      {} elements in {} patches, {} receiver points, at most about {} ({})",
+        count(elements as u64),
         count(mesh.patches().len() as u64),
         count(mesh.points().len() as u64),
-        count((elements * BYTES_PER_ELEMENT).div_ceil(1_000_000)),
+        memory::size(memory::foreseen(scene.triangles().len(), mesh.patches().len(), elements)),
         seconds(time.as_secs_f64())
     ))?;
     result(&format!(

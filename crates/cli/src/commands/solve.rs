@@ -12,10 +12,12 @@ use scene_import::Imported;
 
 use crate::args::{AccelArg, PictureArgs};
 use crate::failure::Failure;
-use crate::pipeline::{self, Prepared, Solved};
+use crate::memory::Budget;
+use crate::pipeline::{self, INTERRUPT, Prepared, Solved};
 use crate::report::{Report, Run};
 use crate::screen::{self, count, percent, say, seconds};
-use crate::settings::{self, Read, Solve, Target, Work};
+use crate::settings::{self, Goal, Read, Solve, Target, Work};
+use crate::snapshot::Snapshots;
 use crate::{bundled, files};
 
 /// Where the program without arguments writes.
@@ -38,7 +40,9 @@ pub(crate) fn bundled() -> Result<(), Failure> {
         outputs: BUNDLED_OUTPUTS.map(|p| Target::File(p.into())).into(),
         report: Some(BUNDLED_REPORT.into()),
         probe: None,
-        goal: settings::Goal::Error(0.01),
+        snapshot: None,
+        keeping: settings::Keeping::default(),
+        goal: Goal::Error(0.01),
         limits: settings::Limits::default(),
         work: Work { elements: None, accel: AccelArg::Auto, threads: 0 },
         shooting: settings::Shooting::default(),
@@ -56,7 +60,11 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         Target::File(path) | Target::Probes(path) => Some(path),
         Target::Stdout => None,
     });
-    let paths: Vec<&Path> = paths.chain(&settings.report).map(PathBuf::as_path).collect();
+    let mut paths: Vec<&Path> = paths.chain(&settings.report).map(PathBuf::as_path).collect();
+    if let Some(resume) = &settings.keeping.resume {
+        files::check_apart(Some(resume), &paths)?;
+    }
+    paths.extend(settings.keeping.checkpoint.as_deref());
     files::check_apart(settings.scene.as_deref(), &paths)?;
     if let Some(probe) = &settings.probe {
         files::check_apart(Some(probe), &paths)?;
@@ -77,11 +85,15 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         Some(path) => places(path, &imported.scene)?,
         None => Vec::new(),
     };
+    if let Some(budget) = Budget::of(settings, &imported.scene) {
+        budget.check()?;
+    }
     let prepared = pipeline::prepare(&imported.scene, &settings.work, settings.shooting.sharing)?;
     let probes: Vec<Probe> = places.iter().map(probe).collect();
-    let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes)?;
+    let snapshots = Snapshots::of(settings, &imported.scene, &options);
+    let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots)?;
     warn_of_coarseness(&imported.scene, &solved.refined.mesh);
-    say_solved(&prepared, &solved);
+    say_solved(&prepared, &solved, settings);
 
     let clock = Instant::now();
     let mut outputs = Vec::new();
@@ -217,7 +229,35 @@ fn write(
     }
 }
 
-fn say_solved(prepared: &Prepared, solved: &Solved) {
+/// Says what ended the work before its goal, and how far it got.
+fn say_limit(solved: &Solved, goal: Goal) {
+    let Some(limit) = solved.limit else { return };
+    let refined = &solved.refined;
+    let what = match limit {
+        INTERRUPT => "interrupted".into(),
+        flag => format!("{flag} ended the work"),
+    };
+    let unshot = percent(refined.work.unshot);
+    let elements = count(refined.mesh.elements().len() as u64);
+    let stated = refined.statement.is_some_and(|s| s.triangles.e1.total().is_finite());
+    screen::warning(&match goal {
+        _ if refined.work.shots == 0 => {
+            format!("{what} before the first step was done: what is written is the emittance alone")
+        }
+        Goal::Error(_) if stated => {
+            format!("{what}: the error asked for is not reached, the one stated is")
+        }
+        Goal::Error(_) => format!(
+            "{what}: the error asked for is not reached, and none is known yet; {unshot} of the \
+             emitted power is unshot"
+        ),
+        Goal::Mesh { .. } => {
+            format!("{what} with {elements} elements and {unshot} of the emitted power unshot")
+        }
+    });
+}
+
+fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
     let refined = &solved.refined;
     let (mesh, work, ledger) = (&refined.mesh, &refined.total_work, &refined.ledger);
     say(&format!(
@@ -249,11 +289,7 @@ fn say_solved(prepared: &Prepared, solved: &Solved) {
         if refined.corrected { "; ambient corrections" } else { "" }
     ));
     screen::statement(refined.statement.as_ref());
-    if let Some(limit) = solved.limit {
-        screen::warning(&format!(
-            "{limit} ended the work: the error asked for is not reached, the one stated is"
-        ));
-    }
+    say_limit(solved, settings.goal);
     if let Some([least, most]) = refined.closed_rows {
         say(&format!("rows: form factors summed to {least:.6} to {most:.6}, closed to 1"));
     }

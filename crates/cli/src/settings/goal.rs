@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use radiosity_core::Asked;
 
-use super::{DEFAULT_ELEMENTS, MOST_ELEMENTS};
+use super::DEFAULT_ELEMENTS;
 
 /// What `solve` works towards.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,10 +30,6 @@ pub(super) const DEFAULT_ERROR: f64 = 0.01;
 /// Unshot share on a fixed mesh when the command line does not say.
 pub(super) const DEFAULT_CONVERGE: f64 = 1e-3;
 
-/// Peak bytes per element, scene and splitting included: 1.47 GB for 2.0 M elements of a
-/// million triangles (maximum resident size of `solve`).
-pub(crate) const BYTES_PER_ELEMENT: u64 = 750;
-
 impl Goal {
     /// In the solver's terms, for a scene of so many triangles.
     pub(crate) fn asked(&self, triangles: usize) -> Asked {
@@ -51,19 +47,6 @@ impl Goal {
         match *self {
             Self::Error(_) => DEFAULT_CONVERGE,
             Self::Mesh { converge, .. } => converge,
-        }
-    }
-}
-
-impl Limits {
-    /// The most elements that both limits allow, and which of them is the tighter.
-    pub(crate) fn most_elements(&self) -> (usize, &'static str) {
-        let by_memory = self.memory.map(|bytes| (bytes / BYTES_PER_ELEMENT).max(1) as usize);
-        match (self.elements, by_memory) {
-            (Some(n), Some(m)) if m < n => (m, "--max-memory"),
-            (Some(n), _) => (n, "--max-elements"),
-            (None, Some(m)) => (m.min(MOST_ELEMENTS), "--max-memory"),
-            (None, None) => (MOST_ELEMENTS, "the widest mesh there is"),
         }
     }
 }

@@ -4,4 +4,5 @@
 
 mod solve;
 mod statement;
+mod stopping;
 mod support;

@@ -1,16 +1,25 @@
 //! How many elements each level has, and what its predecessors say of it.
 
+mod keep;
+
+use scene::Solution;
+
 use super::difference;
+use super::growth::Growth;
 use super::level::{Level, Setting};
+use super::sample::Sampled;
 use super::statement::{
     Measured, Parts, Statement, Step, foreseen, mesh_error, stated, unbalanced,
 };
 use super::{Asked, Reached, Refined};
+use crate::checkpoint::Kept;
 use crate::config::MeshConfig;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
 use crate::observer::{Control, LevelReport, Observer, StepReport, Stopper};
-use crate::shooting::StopReason;
+use crate::shooting::{Progress, StopReason};
+use keep::Climb;
+pub(crate) use keep::Climbed;
 
 /// Elements of the first level, or the scene's own triangles if those are more.
 const FIRST_ELEMENTS: usize = 100;
@@ -34,20 +43,40 @@ pub(super) struct Rung {
     /// The step that led here.
     step: Option<[Step; 3]>,
     mesh_errors: [Measured; 3],
+    /// Of its own form factors, or, where it was stopped before, of those of the level before.
+    sampled: Sampled,
 }
 
 pub(super) struct Ladder<'a, E: Executor> {
     pub(super) setting: Setting<'a, E>,
     /// Work on finished levels.
     pub(super) base: StepReport,
+    /// The way to the present level's mesh.
+    pub(super) grown: Vec<Growth>,
     pub(super) done: Option<Rung>,
 }
 
-impl<E: Executor> Ladder<'_, E> {
+impl<'a, E: Executor> Ladder<'a, E> {
+    /// Below the first level.
+    pub(super) fn new(setting: Setting<'a, E>) -> Self {
+        Self { setting, base: StepReport::default(), grown: Vec::new(), done: None }
+    }
+
     pub(super) fn climb(&mut self, observer: &mut impl Observer) -> Refined {
         let mut elements = self.first();
+        let allowed = observer.elements(elements);
+        if allowed < elements {
+            self.limit(allowed);
+            elements = self.first();
+        }
+        let level = self.solve(elements, observer);
+        self.climb_from(level, observer)
+    }
+
+    /// Climbs on from a level that is lit.
+    fn climb_from(&mut self, mut level: Level, observer: &mut impl Observer) -> Refined {
+        let stopper = observer.stopper();
         loop {
-            let level = self.solve(elements, observer);
             let reason = level.reason;
             let rung = self.place(level);
             let statement = self.statement(&rung);
@@ -57,29 +86,61 @@ impl<E: Executor> Ladder<'_, E> {
                 work: self.base,
                 statement,
             });
-            let next = self.next(&rung, statement.as_ref());
-            let reached = match (reason, next) {
-                (StopReason::Stopped, _) => Reached::Stopped,
-                (StopReason::Converged | StopReason::ShotLimit, Ok(more)) => {
-                    elements = more;
-                    self.done = Some(rung);
-                    continue;
+            let reached = match reason {
+                StopReason::Stopped => Reached::Stopped,
+                StopReason::Converged | StopReason::ShotLimit => {
+                    // It has said what it knows: its room is for the next one.
+                    self.done = None;
+                    match self.next_allowed(&rung, statement.as_ref(), stopper.as_ref(), observer) {
+                        Ok(more) => {
+                            self.done = Some(rung);
+                            level = self.solve(more, observer);
+                            continue;
+                        }
+                        Err(reached) => reached,
+                    }
                 }
-                (StopReason::Converged | StopReason::ShotLimit, Err(reached)) => reached,
                 _ => Reached::Shooting,
             };
             return self.finish(rung, statement, reached);
         }
     }
 
+    /// Never more elements than these from now on.
+    fn limit(&mut self, elements: usize) {
+        let most = &mut self.setting.refining.most_elements;
+        *most = elements.clamp(1, *most);
+    }
+
+    /// How many elements the next level has by the observer's leave, or why there is none.
+    fn next_allowed(
+        &mut self,
+        rung: &Rung,
+        statement: Option<&Statement>,
+        stopper: Option<&Stopper>,
+        observer: &mut impl Observer,
+    ) -> Result<usize, Reached> {
+        let planned = self.next(rung, statement)?;
+        if stopper.is_some_and(|stop| stop()) {
+            return Err(Reached::Stopped);
+        }
+        let allowed = observer.elements(planned);
+        if allowed >= planned {
+            return Ok(planned);
+        }
+        self.limit(allowed);
+        self.next(rung, statement)
+    }
+
     /// How many elements the first level has.
     fn first(&self) -> usize {
-        let coarsest = FIRST_ELEMENTS.min(self.setting.refining.most_elements);
+        let most = self.setting.refining.most_elements;
         match self.setting.refining.asked {
-            Asked::Error(_) => coarsest,
-            Asked::Unstated(n) => n,
+            Asked::Error(_) => FIRST_ELEMENTS.min(most),
+            Asked::Unstated(n) => n.min(most),
             // Two levels below the asked one, as far as the scene's own pieces allow.
             Asked::Elements(n) => {
+                let n = n.min(most);
                 let least = Mesh::from_scene(self.setting.scene, &MeshConfig::with_elements(1));
                 let least = least.elements().len();
                 let start = n as f64 / (GROWTH * GROWTH);
@@ -99,12 +160,14 @@ impl<E: Executor> Ladder<'_, E> {
 
     /// How many elements the next level has, or why there is none.
     fn next(&self, rung: &Rung, statement: Option<&Statement>) -> Result<usize, Reached> {
-        let have = rung.level.elements();
+        let (have, most) = (rung.level.elements(), self.setting.refining.most_elements);
         match self.setting.refining.asked {
+            Asked::Unstated(n) if n > most => Err(Reached::ElementLimit),
             Asked::Unstated(_) => Err(Reached::Elements),
-            Asked::Elements(n) => {
+            Asked::Elements(asked) => {
+                let n = asked.min(most);
                 if have as f64 * LEAST_GROWTH > n as f64 {
-                    return Err(Reached::Elements);
+                    return Err(if n < asked { Reached::ElementLimit } else { Reached::Elements });
                 }
                 let more = (have as f64 * GROWTH).ceil() as usize;
                 // No level shortly below the asked one.
@@ -112,7 +175,7 @@ impl<E: Executor> Ladder<'_, E> {
             }
             Asked::Error(target) => {
                 let parts = statement.map_or_else(Parts::default, |s| s.triangles.e1);
-                let seen = have >= LEAST_ELEMENTS.min(self.setting.refining.most_elements);
+                let seen = have >= LEAST_ELEMENTS.min(most);
                 if statement.is_some() && parts.total() <= target && seen {
                     return Err(Reached::Error);
                 }
@@ -123,10 +186,10 @@ impl<E: Executor> Ladder<'_, E> {
                     GROWTH
                 };
                 let more = (have as f64 * wanted).ceil();
-                if more <= self.setting.refining.most_elements as f64 {
+                if more <= most as f64 {
                     Ok(more as usize)
-                } else if have as f64 * LEAST_GROWTH <= self.setting.refining.most_elements as f64 {
-                    Ok(self.setting.refining.most_elements)
+                } else if have as f64 * LEAST_GROWTH <= most as f64 {
+                    Ok(most)
                 } else {
                     Err(Reached::ElementLimit)
                 }
@@ -135,11 +198,21 @@ impl<E: Executor> Ladder<'_, E> {
     }
 
     fn solve(&mut self, elements: usize, observer: &mut impl Observer) -> Level {
-        let base = self.base;
-        let mut relay = Relay { base, observer };
         let before = self.done.as_ref().map(|rung| &rung.level);
-        let mesh = self.setting.mesh(elements, before);
-        let level = self.setting.level(mesh, before.is_none(), &mut relay);
+        let growth = self.setting.growth(elements, before);
+        let mesh = self.setting.mesh(&growth, before.map(|level| &level.mesh));
+        self.grown.push(growth);
+        self.light(mesh, None, observer)
+    }
+
+    /// Lights the present level's mesh, from where it was `kept` on, if it was.
+    fn light(&mut self, mesh: Mesh, kept: Option<Progress>, observer: &mut impl Observer) -> Level {
+        let base = self.base;
+        let most_elements = self.setting.refining.most_elements;
+        let done = self.done.as_ref();
+        let climb = Climb { base, most_elements, grown: &self.grown, done };
+        let mut relay = Relay { climb, observer };
+        let level = self.setting.level(mesh, done.is_none(), kept, &mut relay);
         self.base = base.and(&level.work);
         level
     }
@@ -147,12 +220,14 @@ impl<E: Executor> Ladder<'_, E> {
     /// Compares a level with the one before.
     fn place(&self, level: Level) -> Rung {
         let Some(before) = &self.done else {
-            return Rung { level, step: None, mesh_errors: [Measured::UNKNOWN; 3] };
+            let sampled = level.sampled.unwrap_or(Sampled::UNKNOWN);
+            return Rung { level, step: None, mesh_errors: [Measured::UNKNOWN; 3], sampled };
         };
+        let sampled = level.sampled.unwrap_or(before.sampled);
         let (from, to) = (before.level.elements(), level.elements());
         if level.reason == StopReason::Stopped {
             let mesh_errors = before.mesh_errors.map(|e| foreseen(e, from, to));
-            return Rung { level, step: None, mesh_errors };
+            return Rung { level, step: None, mesh_errors, sampled };
         }
         let (scene, counted) = (self.setting.scene, level.counted);
         let (coarse, fine) = (before.level.lit(), level.lit());
@@ -166,14 +241,14 @@ impl<E: Executor> Ladder<'_, E> {
         for (i, error) in mesh_errors.iter_mut().enumerate() {
             *error = mesh_error(before.step.map(|s| s[i]), step[i]);
         }
-        Rung { level, step: Some(step), mesh_errors }
+        Rung { level, step: Some(step), mesh_errors, sampled }
     }
 
     fn statement(&self, rung: &Rung) -> Option<Statement> {
         if !self.setting.refining.asked.stated() {
             return None;
         }
-        let Level { iteration, sampled, probes, .. } = &rung.level;
+        let (sampled, Level { iteration, probes, .. }) = (&rung.sampled, &rung.level);
         let [triangles, points, places] = match rung.level.unseen {
             true => [Measured::UNKNOWN; 3],
             false => rung.mesh_errors.map(|e| e.at_least(unbalanced(&rung.level.ledger))),
@@ -228,19 +303,35 @@ impl<E: Executor> Ladder<'_, E> {
     }
 }
 
-/// Adds the work of earlier levels to what the observer hears.
+/// Adds the work of earlier levels to what the observer hears, and the ladder to what it keeps.
 struct Relay<'a, O: Observer> {
-    base: StepReport,
+    climb: Climb<'a>,
     observer: &'a mut O,
 }
 
 impl<O: Observer> Observer for Relay<'_, O> {
     fn step(&mut self, step: &StepReport) -> Control {
-        self.observer.step(&self.base.and(step))
+        self.observer.step(&self.climb.base.and(step))
     }
 
     fn stopper(&self) -> Option<Stopper> {
         self.observer.stopper()
+    }
+
+    fn wants_solution(&mut self, step: &StepReport) -> bool {
+        self.observer.wants_solution(&self.climb.base.and(step))
+    }
+
+    fn solution(&mut self, step: &StepReport, mesh: &Mesh, solution: &Solution) {
+        self.observer.solution(&self.climb.base.and(step), mesh, solution);
+    }
+
+    fn keeps(&mut self) -> bool {
+        self.observer.keeps()
+    }
+
+    fn keep(&mut self, kept: &Kept<'_>) {
+        self.observer.keep(&kept.within(&self.climb));
     }
 }
 

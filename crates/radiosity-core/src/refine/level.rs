@@ -4,19 +4,19 @@ use accel::{Bvh, Occluder};
 use scene::{Rgb, Scene, Solution};
 
 use super::difference::Lit;
-use super::mark;
 use super::place::{self, Probe};
 use super::sample::{self, Sampled};
 use super::statement::Measured;
 use super::surface::{Counted, Sides};
 use super::{Asked, RefineConfig};
 use crate::census::Census;
-use crate::config::{MeshConfig, ShootingConfig, Split};
+use crate::config::ShootingConfig;
 use crate::energy::Ledger;
 use crate::executor::Executor;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, ReceiverPoint};
 use crate::observer::{Control, Observer, StepReport};
-use crate::shooting::{Shooting, StopReason};
+use crate::reconstruct::Light;
+use crate::shooting::{Course, Progress, Shooting, StopReason};
 
 /// Share of the asked error that unshot light may take.
 const ITERATION_SHARE: f64 = 0.1;
@@ -32,6 +32,8 @@ const MOST_TIGHTENINGS: u32 = 12;
 pub(super) struct Level {
     pub(super) mesh: Mesh,
     pub(super) solution: Solution,
+    /// What the solution is made of.
+    pub(super) light: Light,
     pub(super) ledger: Ledger,
     pub(super) reason: StopReason,
     pub(super) work: StepReport,
@@ -44,7 +46,8 @@ pub(super) struct Level {
     /// nothing is known of what was missed.
     pub(super) unseen: bool,
     pub(super) iteration: Measured,
-    pub(super) sampled: Sampled,
+    /// `None` if the work was stopped before that was known.
+    pub(super) sampled: Option<Sampled>,
 }
 
 /// What all levels have in common.
@@ -59,46 +62,55 @@ pub(super) struct Setting<'a, E: Executor> {
 }
 
 impl<E: Executor> Setting<'_, E> {
-    /// The mesh of about so many elements: of elements of one size, or finer than the one before
-    /// where its light says so.
-    pub(super) fn mesh(&self, elements: usize, before: Option<&Level>) -> Mesh {
-        let RefineConfig { least_area, most_depth, split, .. } = self.refining;
-        let config =
-            MeshConfig { least_area, most_depth, split, ..MeshConfig::with_elements(elements) };
-        match before {
-            Some(level) if self.adaptive() => {
-                let Level { mesh, solution, counted, .. } = level;
-                let mean = Sides::of(self.scene, mesh, solution, *counted).mean();
-                let density = mark::densities(level.lit(), mean, *counted, self.executor);
-                mesh.refined(&density, &config)
-            }
-            _ => Mesh::from_scene(self.scene, &config),
-        }
+    /// The probes that shots have to reach.
+    pub(super) fn receivers(&self) -> Vec<ReceiverPoint> {
+        self.probes.iter().filter_map(|p| p.receiver(self.scene)).collect()
     }
 
-    /// Whether levels follow the light.
-    pub(super) fn adaptive(&self) -> bool {
-        matches!(self.refining.asked, Asked::Error(_)) && self.refining.split != Split::None
-    }
-
-    /// Shoots on a mesh until what is unshot no longer matters or the observer says stop.
-    pub(super) fn level(&self, mesh: Mesh, first: bool, observer: &mut impl Observer) -> Level {
+    /// Shoots on a mesh until what is unshot no longer matters or the observer says stop; from
+    /// where it was `kept` on, if it was. A level that is stopped before its first step shows what
+    /// its surfaces emit.
+    pub(super) fn level(
+        &self,
+        mesh: Mesh,
+        first: bool,
+        kept: Option<Progress>,
+        observer: &mut impl Observer,
+    ) -> Level {
         let (scene, executor) = (self.scene, self.executor);
-        let census = Census::take(scene, &mesh, self.bvh, self.config.exchange, executor);
-        let receivers: Vec<_> = self.probes.iter().filter_map(|p| p.receiver(scene)).collect();
+        let (stopper, exchange) = (observer.stopper(), self.config.exchange);
+        let census =
+            Census::take_unless(scene, &mesh, self.bvh, exchange, executor, stopper.as_ref());
+        let stopped = census.is_none();
+        let census = census.unwrap_or_default();
+        let receivers = self.receivers();
         let (occluder, config) = (self.occluder, self.config);
         let mut shooting =
             Shooting::with_probes(&mesh, occluder, &census, executor, config, &receivers);
+        if let Some(progress) = kept {
+            shooting.restore(progress);
+        }
         let counted = Counted::of(&mesh);
-        let reason = self.shoot(&mesh, &mut shooting, counted, first, observer);
-        let solution = shooting.solution();
+        let reason = if stopped {
+            StopReason::Stopped
+        } else {
+            self.shoot(&mesh, &mut shooting, counted, first, observer)
+        };
+        let shown = shooting.shown();
+        let solution = shooting.solution_showing(&shown);
         let whole = Sides::of(scene, &mesh, &solution, counted);
         let remaining = shooting.remaining();
-        let sampled = if self.refining.asked.stated() {
-            sample::form_factors(scene, &mesh, &shooting, &solution, counted)
-        } else {
-            Sampled::default()
+        let sampled = match (self.refining.asked.stated(), reason) {
+            (false, _) => Some(Sampled::default()),
+            (true, StopReason::Stopped) => None,
+            (true, _) => {
+                let stopper = stopper.as_ref();
+                sample::form_factors(scene, &mesh, &shooting, &solution, counted, stopper)
+            }
         };
+        if stopped || sampled.is_none() && reason != StopReason::Stopped {
+            shooting.hand_out(observer);
+        }
         let iteration = Measured {
             e1: remaining.power.share_of(whole.power),
             einf: remaining.local.share_of(whole.mean()),
@@ -118,6 +130,7 @@ impl<E: Executor> Setting<'_, E> {
             corrected: shooting.corrected(),
             closed_rows: shooting.closed_rows(),
             solution,
+            light: shooting.into_light(shown),
             reason,
             counted,
             iteration,
@@ -138,25 +151,29 @@ impl<E: Executor> Setting<'_, E> {
     ) -> StopReason {
         let Asked::Error(target) = self.refining.asked else { return shooting.run(observer) };
         let most = (ITERATION_SHARE * target).max(if first { FIRST_ITERATION } else { 0.0 });
-        let mut unshot = most;
-        for _ in 0..MOST_TIGHTENINGS {
-            shooting.tighten(unshot);
-            let reason = shooting.run(observer);
-            if reason != StopReason::Converged {
-                return reason;
-            }
-            let missing = self.missing(mesh, shooting, counted);
-            if missing <= most {
-                return reason;
+        if shooting.course().tightened == 0 {
+            shooting.tighten(most);
+        }
+        loop {
+            // A level that was kept may have been past this.
+            if !shooting.course().completing {
+                let reason = shooting.run(observer);
+                if reason != StopReason::Converged || self.missing(mesh, shooting, counted) <= most
+                {
+                    return reason;
+                }
             }
             if shooting.complete(observer) == Control::Stop {
                 return StopReason::Stopped;
             }
+            let Course { unshot, tightened, .. } = shooting.course();
+            if tightened >= MOST_TIGHTENINGS {
+                return StopReason::Converged;
+            }
             let missing = self.missing(mesh, shooting, counted);
             // A little further than needed, and never so far that one loose bound costs sweeps.
-            unshot *= (0.95 * most / missing).clamp(0.1, 0.9);
+            shooting.tighten(unshot * (0.95 * most / missing).clamp(0.1, 0.9));
         }
-        StopReason::Converged
     }
 
     /// The bound on what further shooting would add, relative, worst channel.

@@ -5,6 +5,7 @@
 //! how wrong the finest is.
 
 mod difference;
+mod growth;
 mod ladder;
 mod level;
 mod mark;
@@ -16,12 +17,14 @@ mod surface;
 use accel::{Bvh, Occluder};
 use scene::{Rgb, Scene, Solution};
 
+use crate::checkpoint::{Checkpoint, Inconsistent};
 use crate::config::{ShootingConfig, Split};
 use crate::energy::Ledger;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
 use crate::observer::{Observer, StepReport};
 use crate::shooting::StopReason;
+pub(crate) use ladder::Climbed;
 use ladder::Ladder;
 use level::Setting;
 pub use place::Probe;
@@ -128,6 +131,29 @@ pub fn refine<E: Executor>(
     observer: &mut impl Observer,
 ) -> Refined {
     let setting = Setting { scene, bvh, occluder, executor, config, refining, probes };
-    let mut ladder = Ladder { setting, base: StepReport::default(), done: None };
-    ladder.climb(observer)
+    Ladder::new(setting).climb(observer)
+}
+
+/// As [`refine`], from where the same work was kept: the result is the same to the bit.
+///
+/// Its meshes are grown anew, which takes the time that it took, but no rays.
+///
+/// # Errors
+/// If the checkpoint contradicts itself, or was not kept by work on the same scene with the same
+/// settings and probes. Not every other scene is found out: who keeps checkpoints of several had
+/// better know which is which.
+#[expect(clippy::too_many_arguments, reason = "each is a choice of its own")]
+pub fn resume<E: Executor>(
+    checkpoint: Checkpoint,
+    scene: &Scene,
+    bvh: &Bvh,
+    occluder: &dyn Occluder,
+    executor: &E,
+    config: ShootingConfig,
+    refining: RefineConfig,
+    probes: &[Probe],
+    observer: &mut impl Observer,
+) -> Result<Refined, Inconsistent> {
+    let setting = Setting { scene, bvh, occluder, executor, config, refining, probes };
+    Ladder::new(setting).resume(checkpoint, observer)
 }

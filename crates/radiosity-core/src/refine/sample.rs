@@ -6,6 +6,7 @@ use super::statement::Measured;
 use super::surface::{Counted, Sides, counted_elements, side_of};
 use crate::executor::Executor;
 use crate::mesh::Mesh;
+use crate::observer::Stopper;
 use crate::shooting::Shooting;
 
 /// Elements in the sample: enough for an error of the error of some ten per cent.
@@ -20,6 +21,16 @@ pub(super) struct Sampled {
     pub(super) elements: usize,
 }
 
+impl Sampled {
+    /// Nothing was sampled.
+    pub(super) const UNKNOWN: Self = Self {
+        triangles: Measured::UNKNOWN,
+        points: Measured::UNKNOWN,
+        rows: [0.0; 2],
+        elements: 0,
+    };
+}
+
 /// Compares what the shots brought to the corners of a sample of elements with a finer
 /// estimate of the same.
 ///
@@ -27,20 +38,23 @@ pub(super) struct Sampled {
 /// and one is taken at equal steps. A difference δ is worth ρδ of exitance there. What the
 /// differences have in common goes on to other surfaces, h̄/(1 − h̄) times, with h̄ the share of
 /// the light shot that comes back.
+///
+/// `None` if it was stopped on the way.
 pub(super) fn form_factors<E: Executor>(
     scene: &Scene,
     mesh: &Mesh,
     shooting: &Shooting<'_, E>,
     solution: &Solution,
     counted: Counted,
-) -> Sampled {
+    stopper: Option<&Stopper>,
+) -> Option<Sampled> {
     let whole = Sides::of(scene, mesh, solution, counted);
     let chosen = choose(mesh, solution, counted, whole.power.sum());
     if chosen.is_empty() {
-        return Sampled { rows: [1.0, 1.0], ..Sampled::default() };
+        return Some(Sampled { rows: [1.0, 1.0], ..Sampled::default() });
     }
     let points: Vec<u32> = chosen.iter().flat_map(|c| mesh.elements[c.element].points).collect();
-    let gathered = shooting.gather(&points);
+    let gathered = shooting.gather_unless(&points, stopper)?;
     let mut rows = [f64::INFINITY, 0.0f64];
     for g in &gathered {
         rows = [rows[0].min(g.row), rows[1].max(g.row)];
@@ -74,12 +88,12 @@ pub(super) fn form_factors<E: Executor>(
         e1: (sum + spread).share_of(whole.power),
         einf: most.share_of(whole.mean()),
     };
-    Sampled {
+    Some(Sampled {
         triangles: relative(of_sides, worst_side),
         points: relative(absolute, largest),
         rows,
         elements: chosen.len(),
-    }
+    })
 }
 
 /// What the sample's elements on one side of a triangle have in common.

@@ -71,7 +71,7 @@ impl Measured {
 }
 
 /// The difference between two meshes, and how many elements each has.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Step {
     pub(super) difference: Measured,
     pub(super) from: usize,

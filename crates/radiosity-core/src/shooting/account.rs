@@ -13,9 +13,19 @@ pub(super) struct Account {
     pub(super) escaped: RgbSum,
     pub(super) sampled_escape: RgbSum,
     pub(super) wrong_side: RgbSum,
+    /// Arrived at elements.
+    pub(super) received: RgbSum,
 }
 
 impl Account {
+    /// The share of what was shot that met an element; all before the first shot.
+    pub(super) fn arriving_share(&self) -> Rgb {
+        let (received, lost) = (self.received.value(), self.escaped.value());
+        let shot = received + lost + self.wrong_side.value();
+        let share = received.share_of(shot);
+        Rgb([0, 1, 2].map(|c| if shot[c] > 0.0 { share[c].clamp(0.0, 1.0) } else { 1.0 }))
+    }
+
     /// Books power that was shot, of which this much arrived: what no element received met a
     /// back or escaped. Without a census (`sampled` is `None`), all of it escaped.
     pub(super) fn book(&mut self, rest: Rgb, sampled: Option<Lost>) {

@@ -205,14 +205,18 @@ impl Ambient {
         parts.iter().map(factor).collect()
     }
 
+    /// The factors that make every row sum to 1.
+    pub(super) fn closing(&self) -> Vec<f64> {
+        self.rows.iter().map(|&row| if row > 0.0 { 1.0 / row } else { 1.0 }).collect()
+    }
+
     /// Makes every row sum to 1, in what has arrived and from now on; returns the factors and
     /// the power that the elements received more, one side.
     ///
     /// For closed scenes: there a row sum other than 1 is the quadrature's defect δ, and at
     /// reflectance ρ it is worth δ/(1 − ρ) of the light.
     pub(super) fn close(&mut self, mesh: &Mesh, state: &mut State) -> (Vec<f64>, Rgb) {
-        let factors: Vec<f64> =
-            self.rows.iter().map(|&row| if row > 0.0 { 1.0 / row } else { 1.0 }).collect();
+        let factors = self.closing();
         let open = state.at_points.clone();
         for (i, &k) in factors.iter().enumerate() {
             state.at_points[i] = state.at_points[i] * k;

@@ -31,6 +31,7 @@ struct PatchRun<'a> {
     irradiance: &'a mut [Rgb],
     unshot: &'a mut [Rgb],
     power: &'a mut [Rgb],
+    net: &'a mut [Rgb],
     received: &'a mut [Rgb],
 }
 
@@ -65,7 +66,7 @@ impl PatchRun<'_> {
     fn take(&mut self, mesh: &Mesh, shooters: &[Shooter], closure: Option<&[f64]>) {
         for (slot, patch) in self.patches.clone().enumerate() {
             let mut received = Rgb::ZERO;
-            let mut power = Rgb::ZERO;
+            let (mut power, mut net) = (Rgb::ZERO, Rgb::ZERO);
             for id in mesh.patches[patch].elements.clone() {
                 let element = &mesh.elements[id as usize];
                 let reflectance = mesh.root_of(element).reflectance;
@@ -85,8 +86,10 @@ impl PatchRun<'_> {
                     }
                 }
                 power += self.unshot[i].abs() * element.area;
+                net += self.unshot[i] * element.area;
             }
             self.power[slot] = power;
+            self.net[slot] = net;
             self.received[slot] = received;
         }
     }
@@ -97,6 +100,7 @@ fn runs<'a>(mesh: &Mesh, state: &'a mut State) -> Vec<Run<'a>> {
     let mut irradiance = state.irradiance.as_mut_slice();
     let mut unshot = state.unshot.as_mut_slice();
     let mut power = state.patch_power.as_mut_slice();
+    let mut net = state.patch_net.as_mut_slice();
     let mut received = state.patch_received.as_mut_slice();
     let points = state.at_points.chunks_mut(RUN).enumerate();
     let mut runs: Vec<Run> =
@@ -112,6 +116,7 @@ fn runs<'a>(mesh: &Mesh, state: &'a mut State) -> Vec<Run<'a>> {
             irradiance: cut(&mut irradiance, last - element),
             unshot: cut(&mut unshot, last - element),
             power: cut(&mut power, end - patch),
+            net: cut(&mut net, end - patch),
             received: cut(&mut received, end - patch),
         }));
         (patch, element) = (end, last);

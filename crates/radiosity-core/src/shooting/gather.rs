@@ -28,6 +28,7 @@ pub struct Gathered {
 struct Run<'a> {
     points: &'a [u32],
     slots: &'a mut [Gathered],
+    done: bool,
 }
 
 impl<E: Executor> Shooting<'_, E> {
@@ -37,25 +38,26 @@ impl<E: Executor> Shooting<'_, E> {
     /// Time: points × patches × cells, about that of a shot per 1,000 points and patch.
     #[must_use]
     pub fn gather(&self, which: &[u32]) -> Vec<Gathered> {
-        self.gather_unless(which, None).0
+        self.gather_unless(which, None).unwrap_or_default()
     }
 
-    /// As [`Shooting::gather`], if nothing stops it: `false` if it was stopped on the way.
+    /// As [`Shooting::gather`], if nothing stops it on the way.
     pub(crate) fn gather_unless(
         &self,
         which: &[u32],
         stopper: Option<&Stopper>,
-    ) -> (Vec<Gathered>, bool) {
+    ) -> Option<Vec<Gathered>> {
         let mut slots = vec![Gathered::default(); which.len()];
         let shone = self.shone();
         let detail = Detail::second_estimate(&self.config);
         let mut runs: Vec<Run> = which
             .chunks(RUN)
             .zip(slots.chunks_mut(RUN))
-            .map(|(points, slots)| Run { points, slots })
+            .map(|(points, slots)| Run { points, slots, done: false })
             .collect();
-        self.executor.for_each(&mut runs, |run| self.gather_run(run, &shone, &detail));
-        slots
+        self.executor.for_each(&mut runs, |run| self.gather_run(run, &shone, &detail, stopper));
+        let done = runs.iter().all(|run| run.done);
+        done.then_some(slots)
     }
 
     /// What each element has shot so far: exitance less what is unshot.
@@ -70,7 +72,7 @@ impl<E: Executor> Shooting<'_, E> {
             .collect()
     }
 
-    fn gather_run(&self, run: &mut Run, shone: &[Rgb], detail: &Detail) {
+    fn gather_run(&self, run: &mut Run, shone: &[Rgb], detail: &Detail, stopper: Option<&Stopper>) {
         let (mesh, exchange) = (self.mesh, self.config.exchange);
         let receivers: Vec<ReceiverPoint> =
             run.points.iter().map(|&p| mesh.points[p as usize]).collect();
@@ -79,6 +81,9 @@ impl<E: Executor> Shooting<'_, E> {
         let (mut scratch, mut cells): (Scratch, Vec<Cell>) = Default::default();
         let mut totals = vec![Rgb::ZERO; receivers.len()];
         for patch in &mesh.patches {
+            if stopper.is_some_and(|stop| stop()) {
+                return;
+            }
             cell::cells_of(mesh, self.census, patch, shone, detail.quarterings, &mut cells);
             let shot = Shot::new(self.occluder, &cells, mesh, patch, exchange, detail, self.mean);
             let points = Receivers { points: &receivers, shares: None };
@@ -91,5 +96,6 @@ impl<E: Executor> Shooting<'_, E> {
             let shot = self.state.at_points[p as usize];
             *slot = Gathered { irradiance, shot, row: seen[i] / sides(exchange) };
         }
+        run.done = true;
     }
 }

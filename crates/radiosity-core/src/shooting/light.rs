@@ -1,5 +1,7 @@
 //! The light of a step's shooters to all receivers: who is lit in which run, and where sums go.
 
+use std::sync::{Mutex, PoisonError};
+
 use scene::Rgb;
 
 use super::Shooting;
@@ -54,15 +56,11 @@ impl<E: Executor> Shooting<'_, E> {
                 ..Run::new(shot, arriving)
             }));
         }
-        if self.scratch.len() < runs.len() {
-            self.scratch.resize_with(runs.len(), Scratch::default);
-        }
-        for (run, scratch) in runs.iter_mut().zip(&mut self.scratch) {
-            run.scratch = Some(scratch);
-        }
         self.executor.for_each(&mut runs, |run| {
             if !stopper.is_some_and(|stop| stop()) {
-                run.light();
+                let mut scratch = self.scratch.take();
+                run.light(&mut scratch);
+                self.scratch.give_back(scratch);
             }
         });
         if runs.iter().any(|run| !run.done) {
@@ -76,6 +74,21 @@ impl<E: Executor> Shooting<'_, E> {
     }
 }
 
+/// Buffers for as many runs as there are at one time. Each run having its own from step to step,
+/// they would take more room than all else: up to 100 kB each, a thousand runs a step.
+#[derive(Default)]
+pub(super) struct Lent(Mutex<Vec<Scratch>>);
+
+impl Lent {
+    fn take(&self) -> Scratch {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default()
+    }
+
+    fn give_back(&self, scratch: Scratch) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(scratch);
+    }
+}
+
 /// A run of receivers of one shot with its slots.
 struct Run<'a> {
     shot: &'a Shot<'a>,
@@ -85,7 +98,6 @@ struct Run<'a> {
     seen: Option<&'a mut [f64]>,
     /// Factors on what arrives.
     closure: Option<&'a [f64]>,
-    scratch: Option<&'a mut Scratch>,
     counts: Counts,
     done: bool,
 }
@@ -98,14 +110,12 @@ impl<'a> Run<'a> {
             arriving,
             seen: None,
             closure: None,
-            scratch: None,
             counts: Counts::default(),
             done: false,
         }
     }
 
-    fn light(&mut self) {
-        let Some(scratch) = self.scratch.as_deref_mut() else { return };
+    fn light(&mut self, scratch: &mut Scratch) {
         let seen = self.seen.as_deref_mut();
         self.counts = self.shot.light(self.receivers, self.arriving, seen, scratch);
         if let Some(closure) = self.closure {

@@ -15,6 +15,8 @@ mod detail;
 mod gather;
 mod light;
 mod near;
+mod overshoot;
+mod progress;
 mod remaining;
 mod select;
 mod shooter;
@@ -26,22 +28,26 @@ use accel::Occluder;
 use scene::{Rgb, Solution};
 
 use crate::census::{Census, Lost};
+use crate::checkpoint::Kept;
 use crate::config::{Correction, Exchange, ShootingConfig};
 use crate::energy::{RgbSum, Sum};
 use crate::executor::Executor;
 use crate::mesh::{Mesh, ReceiverPoint};
 use crate::observer::{Control, Observer, StepReport, Stopper};
-use crate::reconstruct;
+use crate::reconstruct::{self, Light};
 use account::Account;
 use ambient::{Ambient, LOSS_OF_PLAIN, Phase};
 pub use gather::Gathered;
+use light::Lent;
+use overshoot::Foresight;
+pub(crate) use progress::{Course, MOST_COUNTED, Progress};
 pub use remaining::Remaining;
 use shooter::Shooter;
 use state::State;
 use stop::STALL_FALL;
 pub use stop::{DIVERGED, StopReason};
+use transfer::Counts;
 pub(crate) use transfer::SEGMENT_LIFT;
-use transfer::{Counts, Scratch};
 
 /// The shooting solver over one mesh and one occluder.
 pub struct Shooting<'a, E: Executor> {
@@ -50,6 +56,10 @@ pub struct Shooting<'a, E: Executor> {
     census: &'a Census,
     executor: &'a E,
     config: ShootingConfig,
+    /// How often less unshot light was asked for.
+    tightened: u32,
+    /// Patches shoot that have not yet, whatever is unshot.
+    completing: bool,
     /// The mesh's points, then the probes.
     receivers: Vec<ReceiverPoint>,
     state: State,
@@ -70,7 +80,8 @@ pub struct Shooting<'a, E: Executor> {
     raw_rows: Option<[f64; 2]>,
     /// Those of the present step, with room for more.
     shooters: Vec<Shooter>,
-    scratch: Vec<Scratch>,
+    foresight: Foresight,
+    scratch: Lent,
 }
 
 impl<'a, E: Executor> Shooting<'a, E> {
@@ -104,28 +115,27 @@ impl<'a, E: Executor> Shooting<'a, E> {
         let mut emitted = RgbSum::default();
         let mut absorption = RgbSum::default();
         let mut area = Sum::default();
-        let mut most = 0.0f64;
         for element in &mesh.elements {
             let root = mesh.root_of(element);
             emitted.add(root.emittance * element.area);
             absorption.add((Rgb::splat(1.0) - root.reflectance) * element.area);
             area.add(element.area);
-            most = most.max(root.reflectance.max_channel());
         }
         let emitted = emitted.value() * sides(config.exchange);
         let absorption = absorption.value();
-        let stiff = config.correction == Correction::Auto && most > 1.0 - LOSS_OF_PLAIN;
         Self {
             state: State::new(mesh, receivers.len()),
             mean: mean_irradiance(emitted, absorption, area.value()),
             endless: [0, 1, 2].map(|c| emitted[c] > 0.0 && absorption[c] == 0.0),
             emitted,
-            ambient: stiff.then(|| Ambient::new(mesh, receivers.len())),
+            ambient: stiff(mesh, &config).then(|| Ambient::new(mesh, receivers.len())),
             mesh,
             occluder,
             census,
             executor,
             config,
+            tightened: 0,
+            completing: false,
             receivers,
             account: Account::default(),
             shots: 0,
@@ -134,7 +144,8 @@ impl<'a, E: Executor> Shooting<'a, E> {
             closure: None,
             raw_rows: None,
             shooters: Vec::new(),
-            scratch: Vec::new(),
+            foresight: Foresight::of(mesh),
+            scratch: Lent::default(),
         }
     }
 
@@ -146,7 +157,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
                 return reason;
             }
             let done = self.step_unless(stopper.as_ref());
-            if !done || self.tell(observer) == Control::Stop {
+            if self.tell(done, observer) == Control::Stop {
                 return self.finished().unwrap_or(StopReason::Stopped);
             }
         }
@@ -155,6 +166,14 @@ impl<'a, E: Executor> Shooting<'a, E> {
     /// Asks for less unshot light than before: shooting may go on from where it stopped.
     pub fn tighten(&mut self, unshot: f64) {
         self.config.stop.unshot = unshot;
+        self.tightened += 1;
+        self.completing = false;
+    }
+
+    /// What the shots are on the way to.
+    pub(crate) fn course(&self) -> Course {
+        let unshot = self.config.stop.unshot;
+        Course { unshot, tightened: self.tightened, completing: self.completing }
     }
 
     /// One step: select, transfer, commit; then, where it pays, an ambient correction. Does
@@ -168,9 +187,15 @@ impl<'a, E: Executor> Shooting<'a, E> {
         let (schedule, receivers) = (self.config.schedule, self.receivers.len());
         let completing = self.ambient.as_ref().filter(|a| a.phase == Phase::Completing);
         let mut chosen = completing.map_or_else(Vec::new, |ambient| {
-            ambient.waiting().take(select::at_once(schedule, receivers)).collect()
+            let patches = self.mesh.patches.len();
+            ambient.waiting().take(select::at_once(schedule, patches, receivers)).collect()
         });
         if chosen.is_empty() {
+            let worth = self.worth_shooting();
+            chosen = select::brightest(&worth, self.emitted, schedule, receivers);
+        }
+        if chosen.is_empty() {
+            // All is owed, and nothing is left to come.
             let power = &self.state.patch_power;
             chosen = select::brightest(power, self.emitted, schedule, receivers);
         }
@@ -194,8 +219,10 @@ impl<'a, E: Executor> Shooting<'a, E> {
     /// [`Shooting::remaining`] knows what every point sees. Does nothing where reflectances
     /// are so low that the bound is tight without that.
     pub fn complete(&mut self, observer: &mut impl Observer) -> Control {
+        self.completing = true;
         let stopper = observer.stopper();
-        let most = select::at_once(self.config.schedule, self.receivers.len());
+        let (patches, receivers) = (self.mesh.patches.len(), self.receivers.len());
+        let most = select::at_once(self.config.schedule, patches, receivers);
         loop {
             let waiting = self.ambient.iter().flat_map(Ambient::waiting);
             let chosen: Vec<usize> = waiting.take(most).collect();
@@ -203,20 +230,29 @@ impl<'a, E: Executor> Shooting<'a, E> {
                 return Control::Continue;
             }
             let done = self.shoot(&chosen, stopper.as_ref());
-            if !done || self.tell(observer) == Control::Stop {
+            if self.tell(done, observer) == Control::Stop {
                 return Control::Stop;
             }
         }
     }
 
-    /// Tells of a step, and shows the light if that is wanted.
-    fn tell(&self, observer: &mut impl Observer) -> Control {
+    /// Tells of a step that is done, or was stopped on the way; shows the light and hands out the
+    /// state if they are wanted.
+    fn tell(&self, done: bool, observer: &mut impl Observer) -> Control {
         let report = self.report();
-        let control = observer.step(&report);
+        let control = if done { observer.step(&report) } else { Control::Stop };
         if control == Control::Continue && observer.wants_solution(&report) {
             observer.solution(&report, self.mesh, &self.solution());
         }
+        self.hand_out(observer);
         control
+    }
+
+    /// Hands out the state, if it is to be kept.
+    pub(crate) fn hand_out(&self, observer: &mut impl Observer) {
+        if observer.keeps() {
+            observer.keep(&Kept::new(self));
+        }
     }
 
     /// What the observer hears.
@@ -233,8 +269,23 @@ impl<'a, E: Executor> Shooting<'a, E> {
     /// The exitance so far, unshot light included: what leaves each element.
     #[must_use]
     pub fn solution(&self) -> Solution {
-        let State { irradiance, at_points, .. } = &self.state;
-        reconstruct::solution(self.mesh, self.census, irradiance, at_points)
+        self.solution_showing(&self.shown())
+    }
+
+    /// The irradiance that the solution shows at the mesh's points.
+    pub(crate) fn shown(&self) -> Vec<Rgb> {
+        let own = &self.state.at_points[..self.mesh.points.len()];
+        reconstruct::shown(self.mesh, self.census, own)
+    }
+
+    /// The solution that shows this at the mesh's points.
+    pub(crate) fn solution_showing(&self, shown: &[Rgb]) -> Solution {
+        reconstruct::solution(self.mesh, &self.state.irradiance, shown)
+    }
+
+    /// What the solution that shows this is made of.
+    pub(crate) fn into_light(self, shown: Vec<Rgb>) -> Light {
+        Light { irradiance: self.state.irradiance, shown }
     }
 
     /// The irradiance so far at each probe.
@@ -266,7 +317,11 @@ impl<'a, E: Executor> Shooting<'a, E> {
             shooter.patch = patch;
             shooter.learnt = self.ambient.as_ref().is_some_and(|a| a.wants(patch));
         }
+        let elements = patches.iter().flat_map(|&p| self.mesh.patches[p].elements.clone());
+        let before: Vec<Rgb> = elements.map(|e| self.state.unshot[e as usize]).collect();
+        let owed = self.foresee(patches);
         if !self.transfer(patches.len(), stopper) {
+            self.forget(patches, &before);
             return false;
         }
         let mut power = RgbSum::default();
@@ -280,11 +335,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
                 sampled.escaped += lost.escaped;
             }
         }
-        for &patch in patches {
-            for e in self.mesh.patches[patch].elements.clone() {
-                self.state.unshot[e as usize] = Rgb::ZERO;
-            }
-        }
+        self.settle(patches, &owed);
         let shooters = &self.shooters[..patches.len()];
         let closure = self.closure.as_deref();
         commit::commit(self.mesh, shooters, closure, &mut self.state, self.executor);
@@ -297,6 +348,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
         }
         let mut rest = power;
         for received in &self.state.patch_received {
+            self.account.received.add(*received);
             rest.add(*received * -1.0);
         }
         self.account.book(rest.value(), sampled);
@@ -305,6 +357,13 @@ impl<'a, E: Executor> Shooting<'a, E> {
         self.help(patches);
         true
     }
+}
+
+/// Whether corrections may be worth their while: some surface reflects more than plain shooting
+/// is good for.
+fn stiff(mesh: &Mesh, config: &ShootingConfig) -> bool {
+    let used = mesh.elements.iter().map(|element| mesh.root_of(element).reflectance.max_channel());
+    config.correction == Correction::Auto && used.fold(0.0, f64::max) > 1.0 - LOSS_OF_PLAIN
 }
 
 /// What light there is on average, if none escaped: emitted power over Σ A (1 − ρ). Where

@@ -4,7 +4,7 @@ use scene::Rgb;
 
 use crate::mesh::Mesh;
 
-/// Irradiance and unshot exitance: 24 bytes a point, 48 an element, 24 a patch.
+/// Irradiance and unshot exitance: 24 bytes a point, 48 an element, 72 a patch.
 #[derive(Clone, Debug, Default)]
 pub(super) struct State {
     /// Irradiance received at each receiver point, and at each probe after them.
@@ -15,6 +15,8 @@ pub(super) struct State {
     pub(super) unshot: Vec<Rgb>,
     /// Unshot power of each patch, one side: ΣA|u|, since a correction can leave u below 0.
     pub(super) patch_power: Vec<Rgb>,
+    /// The same with its sign: ΣAu.
+    pub(super) patch_net: Vec<Rgb>,
     /// Power that each patch received in the last shot.
     pub(super) patch_received: Vec<Rgb>,
 }
@@ -28,6 +30,7 @@ impl State {
             irradiance: vec![Rgb::ZERO; mesh.elements.len()],
             unshot,
             patch_power: vec![Rgb::ZERO; mesh.patches.len()],
+            patch_net: vec![Rgb::ZERO; mesh.patches.len()],
             patch_received: vec![Rgb::ZERO; mesh.patches.len()],
         };
         state.sum_patches(mesh);
@@ -36,9 +39,13 @@ impl State {
 
     /// Sums the patches' unshot power anew.
     pub(super) fn sum_patches(&mut self, mesh: &Mesh) {
-        for (patch, power) in mesh.patches.iter().zip(&mut self.patch_power) {
-            let power_of = |e: u32| self.unshot[e as usize].abs() * mesh.elements[e as usize].area;
-            *power = patch.elements.clone().map(power_of).sum();
+        let sums = self.patch_power.iter_mut().zip(&mut self.patch_net);
+        for (patch, (power, net)) in mesh.patches.iter().zip(sums) {
+            (*power, *net) = (Rgb::ZERO, Rgb::ZERO);
+            for e in patch.elements.clone().map(|e| e as usize) {
+                *power += self.unshot[e].abs() * mesh.elements[e].area;
+                *net += self.unshot[e] * mesh.elements[e].area;
+            }
         }
     }
 

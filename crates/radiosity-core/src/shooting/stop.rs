@@ -9,7 +9,7 @@ use crate::executor::Executor;
 /// less than [`STALL_FALL`]: light goes round between perfect reflectors.
 const STALL_SWEEPS: u64 = 20;
 
-/// Unshot power over emitted power beyond which the solver gives up: it starts at 1, and
+/// Net unshot power over emitted power beyond which the solver gives up: it starts at 1, and
 /// with rows that sum to at most 1 it cannot rise.
 pub const DIVERGED: f64 = 2.0;
 
@@ -49,7 +49,7 @@ impl<E: Executor> Shooting<'_, E> {
             Some(StopReason::Converged)
         } else if self.config.stop.max_shots.is_some_and(|most| self.shots >= most) {
             Some(StopReason::ShotLimit)
-        } else if self.unshot_share() > DIVERGED {
+        } else if self.net_share() > DIVERGED {
             Some(StopReason::Diverged)
         } else if self.shots > self.lowest.1 + stall {
             Some(StopReason::Stalled)
@@ -62,6 +62,13 @@ impl<E: Executor> Shooting<'_, E> {
     pub(super) fn unshot_share(&self) -> f64 {
         let unshot = self.state.unshot_power() * sides(self.config.exchange);
         unshot.share_of(self.emitted).max_channel()
+    }
+
+    /// |ΣAu| over the emitted power, worst channel: light that patches shot in advance and owe
+    /// counts against that which they have.
+    fn net_share(&self) -> f64 {
+        let net = self.net().abs() * sides(self.config.exchange);
+        net.share_of(self.emitted).max_channel()
     }
 
     /// Whether light in some lit channel can go nowhere: every reflectance is 1, and no

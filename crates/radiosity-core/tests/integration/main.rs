@@ -13,4 +13,6 @@ mod models;
 mod overlap;
 mod plates;
 mod refine;
+mod resume;
 mod stiff;
+mod stops;

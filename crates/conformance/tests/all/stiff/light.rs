@@ -54,6 +54,7 @@ fn emission_1e30_1e_30() {
         for elements in [12, 96] {
             let scaled = |scale: f64| two_lamps(1e-30 * scale, 1e30 * scale, elements, config);
             let once = scaled(1.0);
+            println!("REASON {:?} {correction:?} {elements}", once.reason);
             assert!(once.reason == StopReason::Converged && once.values().all(Rgb::is_finite));
             let exact = |solved: &Lit, once: &Lit, k: f64| {
                 solved.values().zip(once.values()).all(|(a, b)| a == b * k)
@@ -148,7 +149,7 @@ fn large_closed_room_one_tiny_lamp() {
     // Its back, so that nothing falls on a side that is not there.
     model.level(at(4.3), at(5.1), 9.0, true, lamp);
     let scene = model.scene();
-    for elements in [600, 2400] {
+    for elements in [2400, 9600] {
         let solved = light(&scene, elements, ShootingConfig::until(1e-6));
         let ledger = solved.ledger;
         let (balance, absorbed) = (ledger.imbalance(), ledger.absorbed[0] / ledger.emitted[0]);

@@ -1,0 +1,29 @@
+//! Where the state of the work is kept, and where it goes on from.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use crate::args::CheckpointArgs;
+use crate::failure::Failure;
+
+/// How often a checkpoint is written when the command line does not say.
+const DEFAULT_EVERY: Duration = Duration::from_secs(30);
+
+/// Where the state of the work is kept, and where it goes on from.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Keeping {
+    pub(crate) checkpoint: Option<PathBuf>,
+    pub(crate) every: Duration,
+    pub(crate) resume: Option<PathBuf>,
+}
+
+/// Resolves the flags for work that may be cut off.
+pub(super) fn keeping(args: CheckpointArgs) -> Result<Keeping, Failure> {
+    let CheckpointArgs { checkpoint, every, resume } = args;
+    for (flag, path) in [("--checkpoint", &checkpoint), ("--resume", &resume)] {
+        if path.as_deref() == Some(Path::new("-")) {
+            return Err(Failure::Usage(format!("{flag} -: expected a file")));
+        }
+    }
+    Ok(Keeping { checkpoint, every: every.unwrap_or(DEFAULT_EVERY), resume })
+}
