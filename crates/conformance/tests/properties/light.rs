@@ -107,7 +107,7 @@ fn what_is_said_to_be_missing_covers_what_is() {
             let correction = if plain { Correction::Never } else { Correction::Auto };
             let until = |unshot| {
                 let stop = StopRule { unshot, max_shots: None };
-                ShootingConfig { stop, correction, ..linear() }
+                ShootingConfig { stop, correction, overshoot: !plain, ..linear() }
             };
             let (early, late) =
                 (light(&pieces, ELEMENTS, until(share)), light(&pieces, ELEMENTS, until(1e-8)));

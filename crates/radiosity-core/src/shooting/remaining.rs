@@ -6,11 +6,11 @@ use super::Shooting;
 use crate::energy::RgbSum;
 use crate::executor::Executor;
 
-/// An upper bound on what infinitely many further shots would add, over a mesh whose rows sum
+/// An upper bound on what infinitely many further shots would change, over a mesh whose rows sum
 /// to at most 1.
 ///
-/// The light so far is a lower bound, so the two enclose the converged light of this mesh.
-/// With u the unshot exitance and K the transfer, what is missing is e = Σ_{k≥1} (ρK)^k u.
+/// Without overshooting and corrections u ≥ 0, and the light so far is a lower bound. With u the unshot exitance and K the transfer, what is missing is e = Σ_{k≥1} (ρK)^k u, and |e| is at
+/// most what |u| would bring.
 /// Where h = Kρ is known, K(ρh) ≤ h·max h makes W = h/(1 − max h) satisfy W ≥ K(ρ(1 + W)),
 /// and so ΣA·e ≤ ΣA·|u|·W by A·K's symmetry, e ≤ ρ·max|u|/(1 − max h). Otherwise max ρ stands
 /// for h in both. Far tighter where reflectances are mixed: what counts is the most reflective
