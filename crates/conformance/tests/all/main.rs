@@ -9,6 +9,7 @@ mod exact_cases;
 mod form_factors;
 mod laws;
 mod reference;
+mod same_bits;
 mod scenes;
 mod statement;
 mod stiff;
