@@ -59,6 +59,7 @@ struct Settings {
     max_seconds: Option<f64>,
     max_elements: Option<usize>,
     max_bytes: Option<u64>,
+    resume: Option<String>,
     exchange: &'static str,
     threads: usize,
     light: f64,
@@ -253,6 +254,7 @@ impl Report {
                 max_seconds: limits.time.map(|t| t.as_secs_f64()),
                 max_elements: limits.elements,
                 max_bytes: limits.memory,
+                resume: settings.keeping.resume.as_ref().map(|path| path.display().to_string()),
                 exchange: match read.exchange {
                     Exchange::OneSided => "one-sided",
                     Exchange::Paired => "paired",

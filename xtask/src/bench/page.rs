@@ -38,7 +38,7 @@ fn scene(solved: &Solved, cores: usize) -> String {
         format!("### {title}"),
         format!("![{title}: speed-up against threads]({})", solved.scene.diagram_name()),
         format!(
-            "`{}`, {} elements, {rounds} round{}. All solutions are the same to the last byte.",
+            "`{}`, {} elements, {rounds} round{}. All solutions of one schedule are the same to the last byte.",
             solved.file,
             grouped(solved.elements),
             if rounds == 1 { "" } else { "s" }
@@ -152,7 +152,7 @@ mod tests {
 
 ![Room: speed-up against threads](scaling-room.svg)
 
-`scenes/room.tri`, 7,999 elements, 3 rounds. All solutions are the same to the last byte.
+`scenes/room.tri`, 7,999 elements, 3 rounds. All solutions of one schedule are the same to the last byte.
 
 Other programs kept 0.25 of 2 cores busy meanwhile. **These are not the times of an idle machine, and the serial share is too high.**
 

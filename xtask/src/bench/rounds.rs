@@ -1,5 +1,6 @@
 //! Which configurations are run, in which order, and what must not depend on them.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::measurement::{Mode, Series, Solved, Timed};
@@ -43,7 +44,7 @@ impl Plan {
     ///
     /// # Errors
     /// Where the program fails, runs on other threads than asked for, or writes a solution that
-    /// differs from that of the first run.
+    /// differs from that of the first run with the same schedule: schedules take other steps.
     pub(super) fn measure(
         &self,
         program: &Program,
@@ -53,7 +54,7 @@ impl Plan {
         let file = scene.path(root);
         let mut solved = Solved { scene, file, elements: 0, others: None, series: self.series() };
         let start = Clock::now();
-        let mut first: Option<(String, String)> = None;
+        let mut firsts: BTreeMap<Option<String>, (String, String)> = BTreeMap::new();
         for round in 0..self.runs {
             println!("{}: round {} of {}", scene.name(), round + 1, self.runs);
             for series in &mut solved.series {
@@ -66,8 +67,9 @@ impl Plan {
                         return Err(failed(format!("{} threads did the work", said.threads)));
                     }
                     let solution = program.solution().map_err(failed)?;
-                    let (words, expected) =
-                        first.get_or_insert_with(|| (settings.join(" "), solution.clone()));
+                    let (words, expected) = firsts
+                        .entry(series.mode.schedule.clone())
+                        .or_insert_with(|| (settings.join(" "), solution.clone()));
                     same(expected, &solution).map_err(|e| {
                         failed(format!("the solution is not that of `{words}`: {e}"))
                     })?;

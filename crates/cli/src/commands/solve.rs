@@ -92,6 +92,12 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let probes: Vec<Probe> = places.iter().map(probe).collect();
     let snapshots = Snapshots::of(settings, &imported.scene, &options);
     let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots)?;
+    if settings.shooting.split == radiosity_core::Split::Centroid {
+        screen::warning(
+            "--split centroid: no edge is ever split, so meshes may agree on a wrong answer; the \
+             stated error may be too small",
+        );
+    }
     warn_of_coarseness(&imported.scene, &solved.refined.mesh);
     say_solved(&prepared, &solved, settings);
 

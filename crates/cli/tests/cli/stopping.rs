@@ -23,19 +23,33 @@ fn exitance(path: &Path) -> Vec<f64> {
 #[cfg(unix)]
 mod signals {
     use std::io::{BufRead, BufReader};
-    use std::os::unix::process::ExitStatusExt;
+    use std::os::unix::process::{CommandExt, ExitStatusExt};
     use std::process::{Child, ChildStderr, Command, Stdio};
 
     use super::*;
 
     fn long_solve(folder: &Path) -> (Child, BufReader<ChildStderr>) {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_radiosity"))
+        let mut command = Command::new(env!("CARGO_BIN_EXE_radiosity"));
+        command
             .current_dir(folder)
             .args(["solve", "box.tri", "--error", "1e-6", "--max-time", "1h"])
             .args(["-o", "a.csv", "-o", "a.glb", "--report", "a.json"])
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+            .stderr(Stdio::piped());
+        // Tests may run under nohup, which the program would take as a word to itself.
+        let heed_hangup = || {
+            // SAFETY: signal may be called between fork and exec.
+            #[expect(unsafe_code, reason = "std does not set how signals are handled")]
+            unsafe {
+                libc::signal(libc::SIGHUP, libc::SIG_DFL);
+            }
+            Ok(())
+        };
+        // SAFETY: what is called between fork and exec neither allocates nor locks.
+        #[expect(unsafe_code, reason = "std does not set how signals are handled")]
+        unsafe {
+            command.pre_exec(heed_hangup);
+        }
+        let mut child = command.spawn().unwrap();
         let stderr = BufReader::new(child.stderr.take().unwrap());
         (child, stderr)
     }

@@ -68,7 +68,7 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Reads what [`Kept::write`] wrote while [`crate::refine`] was at work.
+    /// Reads what [`Kept::write`] wrote while [`crate::refine()`] was at work.
     ///
     /// # Errors
     /// If the bytes are none of its, too few, too many, or not numbers.

@@ -1,8 +1,7 @@
 //! From coarse meshes to fine ones, until the light is as right as was asked.
 //!
-//! Each level is solved from nothing. The coarser ones cost a seventh of the finest when
-//! each has four times the elements of the one before (N^1.5), and what they differ by says
-//! how wrong the finest is.
+//! Each level is solved from nothing, on a mesh that has more elements than the one before where its
+//! light was not what neighbours foretold. What the levels differ by says how wrong the finest is.
 
 mod difference;
 mod growth;

@@ -8,6 +8,7 @@
 use scene::Rgb;
 
 use super::Shooting;
+use super::ambient::{LOSS_OF_PLAIN, Phase};
 use super::state::State;
 use crate::energy::RgbSum;
 use crate::executor::Executor;
@@ -16,6 +17,10 @@ use crate::mesh::Mesh;
 /// No more bounces are foreseen than of a light of which this share comes back each time: where
 /// more does, ambient corrections take over, and until then guesses must not run away.
 const MOST_RETURNED: f64 = 0.6;
+
+/// With a mean reflectance below this, the first sweep will show that corrections are not worth
+/// their while: a little less than what they are decided by.
+const MOST_PLAIN: f64 = 1.0 - LOSS_OF_PLAIN - 0.05;
 
 /// What is the same for all patches.
 #[derive(Clone, Debug, Default)]
@@ -61,7 +66,7 @@ impl<E: Executor> Shooting<'_, E> {
     /// An element that received less than others so far expects less in the same measure: nothing
     /// where no light comes.
     pub(super) fn foresee(&mut self, patches: &[usize]) -> Vec<Rgb> {
-        if !self.config.overshoot {
+        if !self.overshoots() {
             return Vec::new();
         }
         let (all, arrives) = (self.net(), self.account.arriving_share());
@@ -84,11 +89,21 @@ impl<E: Executor> Shooting<'_, E> {
         owed
     }
 
+    /// Whether it pays and does no harm. Rows that will be closed are learnt from the first sweep:
+    /// its shots must be cut into the same cells as later ones, and not be brighter than they are.
+    fn overshoots(&self) -> bool {
+        let learning = self.ambient.as_ref().is_some_and(|a| a.phase != Phase::LeftOut);
+        let closed = || !self.census.is_empty() && !self.census.any_lost();
+        let mean = self.foresight.reflecting.share_of(Rgb::splat(self.foresight.area));
+        let stiff = mean.max_channel() > MOST_PLAIN;
+        self.config.overshoot && !(learning && stiff && closed())
+    }
+
     /// The unshot power of each patch that is worth a shot: all of it, but what is owed for light
     /// that will come.
     pub(super) fn worth_shooting(&self) -> Vec<Rgb> {
         let State { patch_power, patch_net, .. } = &self.state;
-        if !self.config.overshoot {
+        if !self.overshoots() {
             return patch_power.clone();
         }
         let even = self.foresight.irradiance(self.net(), self.account.arriving_share());
