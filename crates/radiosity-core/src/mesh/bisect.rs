@@ -8,10 +8,12 @@
 //! A forest may grow again: where light asks for more elements, edges count for longer.
 
 use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap, HashSet};
+use std::collections::{BinaryHeap, HashSet};
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use scene::VertexId;
+use smallvec::SmallVec;
 
 use super::Node;
 use super::cut::{Edge, edge};
@@ -66,7 +68,7 @@ struct Grower<'a> {
     state: Vec<Growth>,
     leaves: usize,
     /// The leaves at each edge of the present mesh; at most two unless surfaces meet there.
-    at_edge: HashMap<Edge, Vec<u32>>,
+    at_edge: FxHashMap<Edge, SmallVec<[u32; 2]>>,
     /// Edges by what they count for, the longest first; ties go to the smallest vertices. An edge
     /// between leaves of two densities is here twice. Halved ones stay until their turn comes.
     queue: BinaryHeap<(Length, Reverse<Edge>)>,
@@ -133,7 +135,7 @@ impl<'a> Grower<'a> {
             nodes,
             state,
             leaves: leaves.len(),
-            at_edge: HashMap::new(),
+            at_edge: FxHashMap::default(),
             queue: BinaryHeap::new(),
             barriers,
         };
@@ -204,7 +206,7 @@ impl<'a> Grower<'a> {
             if other != edge
                 && let Some(leaves) = self.at_edge.get_mut(&other)
             {
-                leaves.retain(|&l| l != leaf);
+                leaves.retain(|l| *l != leaf);
             }
         }
         let first = self.nodes.len() as u32;
@@ -228,7 +230,7 @@ impl<'a> Grower<'a> {
         // Where some leaves may not be halved, an edge that they know may not be in the queue.
         let limited = self.plan.least_area > 0.0 || self.plan.most_depth < u32::MAX;
         for edge in edges(vertices) {
-            let leaves = self.at_edge.entry(edge).or_insert_with(|| Vec::with_capacity(2));
+            let leaves = self.at_edge.entry(edge).or_default();
             let known = leaves
                 .iter()
                 .any(|&other| self.state[other as usize].density.total_cmp(&density).is_eq());
