@@ -5,7 +5,7 @@
 //! meshes, with `SAME_BITS=all cargo test --release -p conformance --test all same_bits -- --nocapture`.
 
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use accel::{Bvh, BvhConfig};
 use conformance::shared;
@@ -105,7 +105,7 @@ fn all_scenes_have_the_same_bits_on_any_threads() {
             .map(|name| bundled.join(name));
         let beside = ["blocks.tri", "box.tri", "church.tri", "cornell.obj", "room.tri"];
         let beside = beside.iter().filter_map(|name| shared::find(&format!("scenes/{name}")));
-        for path in bundled.into_iter().chain(beside.map(PathBuf::from)) {
+        for path in bundled.into_iter().chain(beside) {
             let scene = scene_import::open(&path, &Options::default()).unwrap().scene;
             let most = 6_000.max(2 * scene.triangles().len());
             for schedule in [Schedule::Single, multi(5), Schedule::Auto] {
