@@ -27,6 +27,8 @@ pub(super) struct Cell {
     pub(super) middle: DVec3,
     /// Where segments start, each for as much of the light as the others.
     pub(super) origins: [DVec3; ORIGINS],
+    /// How many of the origins differ: the first, or all.
+    pub(super) places: usize,
     pub(super) area: f64,
     /// Largest distance of a corner from the centroid.
     pub(super) radius: f64,
@@ -58,7 +60,20 @@ impl Cell {
         let origins = [centroid; ORIGINS];
         let longest = longest.sqrt();
         let middle = centroid;
-        Self { corners, centroid, middle, origins, area, radius, longest, unshot, open: 1.0, parts }
+        let (places, open) = (1, 1.0);
+        Self {
+            corners,
+            centroid,
+            middle,
+            origins,
+            places,
+            area,
+            radius,
+            longest,
+            unshot,
+            open,
+            parts,
+        }
     }
 
     /// The four similar quarters of a cell that the mesh does not split. What is covered
@@ -127,6 +142,7 @@ fn cell_of(mesh: &Mesh, census: &Census, node: u32, unshot: &[Rgb], quarterings:
         let uneven = unshot[range.clone()].windows(2).any(|pair| pair[0] != pair[1]);
         if uneven {
             spread_origins(mesh, census, range, unshot, weight, &mut cell.origins);
+            cell.places = ORIGINS;
         }
     }
     cell

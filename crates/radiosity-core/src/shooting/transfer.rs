@@ -228,7 +228,7 @@ impl Run<'_> {
             }
             let to = receiver.position + normal * shot.lift();
             if from.is_none() && side > 0.0 {
-                let start = index as usize % ORIGINS;
+                let start = index as usize % cell.places;
                 self.scratch.lit[start].push((index, form_factor));
                 let target = Target { point: to, ignore: receiver.triangle };
                 self.scratch.targets[start].push(target);
