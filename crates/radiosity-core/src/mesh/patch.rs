@@ -25,16 +25,24 @@ fn number(mesh: &mut Mesh, node: u32) {
     mesh.nodes[node as usize].elements = first..mesh.elements.len() as u32;
 }
 
-/// The highest nodes with at most `most` elements.
+/// A patch is at most this many times as large as a mean one: where elements are large because the
+/// light is even, patches of as many of them as elsewhere would be too coarse for visibility.
+const MOST_OF_MEAN: f64 = 2.0;
+
+/// The highest nodes with at most `most` elements that are not much larger than such nodes are on
+/// average.
 pub(super) fn choose(mesh: &mut Mesh, most: usize) {
+    let whole: f64 = mesh.elements.iter().map(|e| e.area).sum();
+    let large = MOST_OF_MEAN * whole * most as f64 / mesh.elements.len().max(1) as f64;
     let mut stack: Vec<u32> = (0..mesh.roots.len() as u32).rev().collect();
     while let Some(id) = stack.pop() {
         let node = &mesh.nodes[id as usize];
-        if !node.is_leaf() && node.elements.len() > most {
+        let corners = mesh.corners(node.vertices);
+        if !node.is_leaf() && (node.elements.len() > most || triangle_area(corners) > large) {
             stack.extend(node.children.clone().rev());
             continue;
         }
-        let (centroid, radius) = bounding(mesh.corners(node.vertices));
+        let (centroid, radius) = bounding(corners);
         let elements = node.elements.clone();
         mesh.patches.push(Patch { node: id, elements, centroid, radius });
     }

@@ -18,6 +18,20 @@ pub(super) struct Lit<'a> {
     pub(super) solution: &'a Solution,
 }
 
+/// How many times as many elements the finer mesh has: by their number, or as the geometric mean over
+/// the area if that is less. Where meshes follow the light, elements may have gone to a small part of
+/// it, and the difference on the rest says less than their number would have it.
+pub(super) fn finer(coarse: &Mesh, fine: &Mesh) -> f64 {
+    let by_number = fine.elements.len() as f64 / coarse.elements.len().max(1) as f64;
+    let (mut logarithms, mut area) = (0.0, 0.0);
+    for (node, parts) in coarse.nodes.iter().zip(&fine.nodes).filter(|(node, _)| node.is_leaf()) {
+        let own = coarse.elements[node.elements.start as usize].area;
+        logarithms += own * (parts.elements.len() as f64).log2();
+        area += own;
+    }
+    if area > 0.0 { (logarithms / area).exp2().min(by_number) } else { 1.0 }
+}
+
 /// Differences of the means of the input triangles' sides.
 pub(super) fn of_triangles(scene: &Scene, coarse: Lit, fine: Lit, counted: Counted) -> Measured {
     let a = Sides::of(scene, coarse.mesh, coarse.solution, counted);

@@ -236,7 +236,8 @@ impl<'a, E: Executor> Ladder<'a, E> {
             difference::of_points(scene, coarse, fine, counted),
             difference::of_places(scene, self.setting.probes, &before.level.probes, &level.probes),
         ];
-        let step = differences.map(|difference| Step { difference, from, to });
+        let finer = difference::finer(&before.level.mesh, &level.mesh);
+        let step = differences.map(|difference| Step { difference, finer });
         let mut mesh_errors = [Measured::UNKNOWN; 3];
         for (i, error) in mesh_errors.iter_mut().enumerate() {
             *error = mesh_error(before.step.map(|s| s[i]), step[i]);

@@ -70,12 +70,12 @@ impl Measured {
     }
 }
 
-/// The difference between two meshes, and how many elements each has.
+/// The difference between two meshes, and how many times as many elements the finer one has.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Step {
     pub(super) difference: Measured,
-    pub(super) from: usize,
-    pub(super) to: usize,
+    /// See [`difference::finer`](super::difference::finer).
+    pub(super) finer: f64,
 }
 
 /// The factor on the estimate of the mesh's error from two steps: differences scatter, and the
@@ -93,8 +93,8 @@ const ORDERS: [f64; 2] = [1.0, 1.5];
 
 /// The error of the last mesh, from one or two steps up to it (Richardson 1911).
 ///
-/// Where the error falls with the order p of h, the difference from n₁ to n₂ elements is
-/// (√(n₂/n₁)^p − 1) errors of the finer mesh. One step says nothing of p: the least is taken, and
+/// Where the error falls with the order p of h, the difference to a mesh of k times as many elements
+/// is (√k^p − 1) errors of that mesh. One step says nothing of p: the least is taken, and
 /// is caution enough. Two show p, and give two such estimates; their geometric mean scatters less
 /// than either.
 pub(super) fn mesh_error(before: Option<Step>, last: Step) -> Measured {
@@ -130,7 +130,7 @@ pub(super) fn foreseen(coarser: Measured, from: usize, to: usize) -> Measured {
 }
 
 fn ratio(step: Step) -> f64 {
-    (step.to as f64 / step.from.max(1) as f64).sqrt()
+    step.finer.sqrt()
 }
 
 /// How many errors of the finer mesh lie between the two; 0 if neither is finer.
@@ -174,9 +174,9 @@ pub(super) fn stated(iteration: Measured, form_factor: Measured, mesh: Measured)
 mod tests {
     use super::*;
 
-    fn step(e1: f64, from: usize, to: usize) -> Step {
+    fn step(e1: f64, from: u32, to: u32) -> Step {
         let difference = Measured { e1: Rgb::splat(e1), einf: Rgb::splat(2.0 * e1) };
-        Step { difference, from, to }
+        Step { difference, finer: f64::from(to) / f64::from(from) }
     }
 
     #[test]

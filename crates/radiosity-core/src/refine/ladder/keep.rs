@@ -68,7 +68,7 @@ record!(Kept {
     step,
     mesh_errors,
 });
-record!(Step { difference, from, to });
+record!(Step { difference, finer });
 
 impl Part for Climb<'_> {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
@@ -111,7 +111,11 @@ impl Kept {
             return Err(Inconsistent("its last finished level is not of its mesh"));
         }
         let level = Level {
-            solution: reconstruct::solution(&mesh, &self.light.irradiance, &self.light.shown),
+            solution: reconstruct::solution(
+                &mesh,
+                self.light.irradiance.iter().copied(),
+                &self.light.shown,
+            ),
             counted: Counted::of(&mesh),
             light: self.light,
             mesh,
