@@ -106,6 +106,7 @@ pub(crate) fn solve(
         exchange,
         schedule: how.schedule,
         overshoot: how.overshoot,
+        ambient: how.ambient,
         correction: how.correction,
         ..ShootingConfig::until(settings.goal.converge())
     };

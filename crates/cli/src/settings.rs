@@ -69,6 +69,7 @@ pub(crate) struct Work {
 pub(crate) struct Shooting {
     pub(crate) schedule: Schedule,
     pub(crate) overshoot: bool,
+    pub(crate) ambient: bool,
     pub(crate) correction: Correction,
     pub(crate) sharing: Loop,
     pub(crate) split: Split,
@@ -187,6 +188,7 @@ fn shooting(args: &ShootingArgs, fixed: bool) -> Result<Shooting, Failure> {
     Ok(Shooting {
         schedule: args.schedule,
         overshoot: !args.no_overshoot,
+        ambient: args.ambient,
         correction: if args.no_corrections { Correction::Never } else { Correction::Auto },
         sharing: args.sharing,
         split: args.split.into(),
@@ -200,6 +202,7 @@ impl Default for Shooting {
         Self {
             schedule: Schedule::Auto,
             overshoot: true,
+            ambient: false,
             correction: Correction::Auto,
             sharing: Loop::Tasks,
             split: Split::LongestEdge,

@@ -110,6 +110,9 @@ pub struct ShootingConfig {
     /// Whether patches shoot in advance what they will still receive: a third fewer shots, and a
     /// stop at the same unshot share that errs by a third of what it would.
     pub overshoot: bool,
+    /// Whether the solution shows, beside the light received, what is still to come: all unshot light
+    /// spread evenly over all surfaces that got some. Without effect on the shots.
+    pub ambient: bool,
 }
 
 /// How many patches shoot in one step.
@@ -153,6 +156,7 @@ impl ShootingConfig {
             correction: Correction::Auto,
             schedule: Schedule::Auto,
             overshoot: true,
+            ambient: false,
         }
     }
 }

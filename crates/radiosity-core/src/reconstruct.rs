@@ -25,12 +25,16 @@ impl Light {
 }
 
 /// Exitance = emittance + reflectance · irradiance, for each element's mean and its corners.
-pub(crate) fn solution(mesh: &Mesh, irradiance: &[Rgb], shown: &[Rgb]) -> Solution {
+pub(crate) fn solution(
+    mesh: &Mesh,
+    irradiance: impl IntoIterator<Item = Rgb>,
+    shown: &[Rgb],
+) -> Solution {
     let elements = mesh
         .elements
         .iter()
         .zip(irradiance)
-        .map(|(element, &mean)| {
+        .map(|(element, mean)| {
             let root = mesh.root_of(element);
             let exitance = |h: Rgb| root.emittance + root.reflectance * h;
             SolutionElement {

@@ -18,6 +18,11 @@ pub(crate) struct ShootingArgs {
     #[arg(long)]
     pub(crate) no_overshoot: bool,
 
+    /// Show unshot light, too, as an even ambient light: pictures of a solve that is cut short or
+    /// still on its way come closer to the end. Counts as unknown in the stated error
+    #[arg(long)]
+    pub(crate) ambient: bool,
+
     /// Leave uniform light to the shots where little is absorbed, without ambient corrections
     #[arg(long)]
     pub(crate) no_corrections: bool,

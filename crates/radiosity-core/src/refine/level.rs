@@ -116,7 +116,7 @@ impl<E: Executor> Setting<'_, E> {
             einf: remaining.local.share_of(whole.mean()),
         };
         let received = shooting.at_probes();
-        let probes = place::exitance(scene, &mesh, &solution, self.probes, received);
+        let probes = place::exitance(scene, &mesh, &solution, self.probes, &received);
         let could = mesh
             .elements
             .iter()

@@ -20,12 +20,13 @@ mod progress;
 mod remaining;
 mod select;
 mod shooter;
+mod shown;
 mod state;
 mod stop;
 mod transfer;
 
 use accel::Occluder;
-use scene::{Rgb, Solution};
+use scene::Rgb;
 
 use crate::census::{Census, Lost};
 use crate::checkpoint::Kept;
@@ -34,7 +35,6 @@ use crate::energy::{RgbSum, Sum};
 use crate::executor::Executor;
 use crate::mesh::{Mesh, ReceiverPoint};
 use crate::observer::{Control, Observer, StepReport, Stopper};
-use crate::reconstruct::{self, Light};
 use account::Account;
 use ambient::{Ambient, LOSS_OF_PLAIN, Phase};
 pub use gather::Gathered;
@@ -264,34 +264,6 @@ impl<'a, E: Executor> Shooting<'a, E> {
             form_factors: self.counts.form_factors,
             unshot: self.unshot_share(),
         }
-    }
-
-    /// The exitance so far, unshot light included: what leaves each element.
-    #[must_use]
-    pub fn solution(&self) -> Solution {
-        self.solution_showing(&self.shown())
-    }
-
-    /// The irradiance that the solution shows at the mesh's points.
-    pub(crate) fn shown(&self) -> Vec<Rgb> {
-        let own = &self.state.at_points[..self.mesh.points.len()];
-        reconstruct::shown(self.mesh, self.census, own)
-    }
-
-    /// The solution that shows this at the mesh's points.
-    pub(crate) fn solution_showing(&self, shown: &[Rgb]) -> Solution {
-        reconstruct::solution(self.mesh, &self.state.irradiance, shown)
-    }
-
-    /// What the solution that shows this is made of.
-    pub(crate) fn into_light(self, shown: Vec<Rgb>) -> Light {
-        Light { irradiance: self.state.irradiance, shown }
-    }
-
-    /// The irradiance so far at each probe.
-    #[must_use]
-    pub fn at_probes(&self) -> &[Rgb] {
-        &self.state.at_points[self.mesh.points.len()..]
     }
 
     /// Whether ambient corrections take part: the first sweep lost too little light.

@@ -48,9 +48,9 @@ impl Foresight {
         foresight
     }
 
-    /// The irradiance that each element may expect, were this unshot power spread evenly; `arrives`
-    /// is the share of what is shot that meets an element.
-    fn irradiance(&self, unshot: Rgb, arrives: Rgb) -> Rgb {
+    /// The irradiance that each element may expect, were this unshot power and all that is reflected
+    /// of it spread evenly; `arrives` is the share of what is shot that meets an element.
+    pub(super) fn irradiance(&self, unshot: Rgb, arrives: Rgb) -> Rgb {
         let reflected = self.reflecting.share_of(Rgb::splat(self.area));
         Rgb([0, 1, 2].map(|c| {
             let returned = (arrives[c] * reflected[c]).clamp(0.0, MOST_RETURNED);

@@ -9,8 +9,9 @@ use crate::executor::Executor;
 /// An upper bound on what infinitely many further shots would change, over a mesh whose rows sum
 /// to at most 1.
 ///
-/// Without overshooting and corrections u ≥ 0, and the light so far is a lower bound. With u the unshot exitance and K the transfer, what is missing is e = Σ_{k≥1} (ρK)^k u, and |e| is at
-/// most what |u| would bring.
+/// Without overshooting and corrections u ≥ 0, and the light so far is a lower bound. With u the
+/// unshot exitance and K the transfer, what is missing is e = Σ_{k≥1} (ρK)^k u, and |e| is at
+/// most what |u| would bring. Where the solution shows an ambient guess a of it, |e − a| ≤ |e| + a.
 /// Where h = Kρ is known, K(ρh) ≤ h·max h makes W = h/(1 − max h) satisfy W ≥ K(ρ(1 + W)),
 /// and so ΣA·e ≤ ΣA·|u|·W by A·K's symmetry, e ≤ ρ·max|u|/(1 − max h). Otherwise max ρ stands
 /// for h in both. Far tighter where reflectances are mixed: what counts is the most reflective
@@ -48,7 +49,9 @@ impl<E: Executor> Shooting<'_, E> {
                 _ => f64::INFINITY,
             }))
         };
-        Remaining { power: amplified(power.value()), local: amplified(local * most) }
+        let (guessed, most_guessed) = self.guessed();
+        let (power, local) = (amplified(power.value()), amplified(local * most));
+        Remaining { power: power + guessed, local: local + most_guessed }
     }
 
     /// The largest reflectance of the mesh, per channel.
