@@ -8,10 +8,10 @@
 //! A forest may grow again: where light asks for more elements, edges count for longer.
 
 use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashSet};
+use std::collections::BinaryHeap;
 
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use scene::VertexId;
 use smallvec::SmallVec;
 
@@ -25,7 +25,7 @@ pub(super) struct Forest {
     pub(super) vertices: Vec<DVec3>,
     pub(super) nodes: Vec<Node>,
     /// Edges along contacts; halves of barriers are barriers.
-    pub(super) barriers: HashSet<Edge>,
+    pub(super) barriers: FxHashSet<Edge>,
 }
 
 /// Where a forest grows, and where it does not.
@@ -45,7 +45,7 @@ impl Forest {
     pub(super) fn of_roots(
         vertices: Vec<DVec3>,
         roots: Vec<[VertexId; 3]>,
-        barriers: HashSet<Edge>,
+        barriers: FxHashSet<Edge>,
     ) -> Self {
         let node = |(vertices, root)| Node::leaf(vertices, root);
         let nodes = roots.into_iter().zip(0..).map(node).collect();
@@ -54,11 +54,14 @@ impl Forest {
 
     /// Grows to about `elements` leaves: stops when the next edge would leave more than that.
     pub(super) fn grow(self, plan: &Plan, elements: usize) -> Self {
-        let mut grower = Grower::new(self, plan);
+        let mut grower = Grower::new(self, plan, elements);
         while grower.leaves < elements && grower.halve_longest(elements) {}
         Self { vertices: grower.vertices, nodes: grower.nodes, barriers: grower.barriers }
     }
 }
+
+/// No room is reserved for more edges than these: elements may be asked for that never come.
+const MOST_RESERVED: usize = 1 << 20;
 
 struct Grower<'a> {
     plan: &'a Plan<'a>,
@@ -72,7 +75,7 @@ struct Grower<'a> {
     /// Edges by what they count for, the longest first; ties go to the smallest vertices. An edge
     /// between leaves of two densities is here twice. Halved ones stay until their turn comes.
     queue: BinaryHeap<(Length, Reverse<Edge>)>,
-    barriers: HashSet<Edge>,
+    barriers: FxHashSet<Edge>,
 }
 
 /// What a node hands down to its halves.
@@ -116,7 +119,7 @@ fn edges([a, b, c]: [VertexId; 3]) -> [Edge; 3] {
 }
 
 impl<'a> Grower<'a> {
-    fn new(forest: Forest, plan: &'a Plan) -> Self {
+    fn new(forest: Forest, plan: &'a Plan, elements: usize) -> Self {
         let Forest { vertices, nodes, barriers } = forest;
         let mut state = vec![Growth { density: 1.0, depth: 0 }; nodes.len()];
         for (id, node) in nodes.iter().enumerate() {
@@ -135,7 +138,11 @@ impl<'a> Grower<'a> {
             nodes,
             state,
             leaves: leaves.len(),
-            at_edge: FxHashMap::default(),
+            // Three edges for two elements, and room for those that are one-sided.
+            at_edge: FxHashMap::with_capacity_and_hasher(
+                (2 * elements).min(MOST_RESERVED),
+                Default::default(),
+            ),
             queue: BinaryHeap::new(),
             barriers,
         };

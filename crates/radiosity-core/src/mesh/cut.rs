@@ -20,10 +20,11 @@ mod pairs;
 mod places;
 mod plan;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 use scene::VertexId;
 
 use contact::Contact;
@@ -80,7 +81,7 @@ pub(super) struct Cut {
     /// covered.
     pub(super) pieces: HashMap<usize, Vec<Piece>>,
     /// Edges of pieces along contacts.
-    pub(super) barriers: HashSet<Edge>,
+    pub(super) barriers: FxHashSet<Edge>,
 }
 
 /// Cuts triangles along their contacts and overlaps, and adds the vertices that this takes.

@@ -9,10 +9,10 @@ mod patch;
 mod points;
 mod weld;
 
-use std::collections::HashSet;
 use std::ops::Range;
 
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 use scene::{Face, Rgb, Scene, TriangleId, VertexId};
 
 use crate::config::{MeshConfig, Split};
@@ -104,7 +104,7 @@ pub struct Mesh {
     pub(crate) extent: f64,
     pub(crate) covered: usize,
     /// Edges along contacts, which part receiver points.
-    barriers: HashSet<Edge>,
+    barriers: FxHashSet<Edge>,
 }
 
 impl Mesh {

@@ -7,10 +7,10 @@
 //! point on each side of it. A point whose sector does not surround the vertex moves a
 //! little into the sector, off the rim where visibility and form factors are undecided.
 
-use std::collections::HashSet;
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 use scene::VertexId;
 
 use super::Mesh;
@@ -47,7 +47,7 @@ struct Corner {
 }
 
 /// Places the points, numbered in the order in which the elements first use them.
-pub(super) fn place(mesh: &mut Mesh, barriers: &HashSet<Edge>) {
+pub(super) fn place(mesh: &mut Mesh, barriers: &FxHashSet<Edge>) {
     const NONE: u32 = u32::MAX;
     let (starts, corners) = corners_by_vertex(mesh);
     // Sector leader of each element corner.
@@ -113,7 +113,7 @@ struct Sectors {
 }
 
 impl Sectors {
-    fn find(&mut self, mesh: &Mesh, at: &[Corner], vertex: u32, barriers: &HashSet<Edge>) {
+    fn find(&mut self, mesh: &Mesh, at: &[Corner], vertex: u32, barriers: &FxHashSet<Edge>) {
         self.parent.clear();
         self.parent.extend(0..at.len());
         self.spokes.clear();

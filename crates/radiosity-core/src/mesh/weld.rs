@@ -3,6 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
+use rustc_hash::FxHashSet;
 use scene::{Face, Scene, Sides, TriangleId, VertexId};
 
 use super::Root;
@@ -23,7 +24,7 @@ pub(super) struct Roots {
     /// The corners of each root.
     pub(super) corners: Vec<[VertexId; 3]>,
     /// Edges along contacts.
-    pub(super) barriers: HashSet<Edge>,
+    pub(super) barriers: FxHashSet<Edge>,
     /// How many triangles are covered by earlier ones, wholly or in part, copies among them.
     pub(super) covered: usize,
 }

@@ -18,6 +18,9 @@ use crate::mesh::{Element, Mesh, Patch, ReceiverPoint, bounding};
 /// of its own radii.
 const NEAR_RADII: f64 = 3.9;
 
+/// More than distances computed in two ways differ by, as a share of themselves.
+const ROUNDING: f64 = 1e-9;
+
 /// A near element is quartered until what a part may receive is at most this share of what the
 /// whole scene receives: small elements need fewer parts. Ten times more care changed no digit of
 /// the errors in docs/design.md.
@@ -107,6 +110,11 @@ impl Near {
         let element = &mesh.elements[id as usize];
         let corners = mesh.corners(element.vertices);
         let (centroid, radius) = bounding(corners);
+        // The shooter lies inside its sphere: what is too far from that need not be measured.
+        let reach = (source.patch.radius + radius * (1.0 + NEAR_RADII)) * (1.0 + ROUNDING);
+        if centroid.distance_squared(source.patch.centroid) > reach * reach {
+            return;
+        }
         let gap = distance_to(source.corners, centroid) - radius;
         let in_front = |c: &DVec3| source.normal.dot(*c - source.patch.centroid) > 0.0;
         let facing = source.exchange == Exchange::Paired || corners.iter().any(in_front);
