@@ -145,13 +145,17 @@ pub(crate) fn solve(
     let identity = Identity::of(scene, prepared.occluder_name, &config, &refining, probes);
     watch.keeper = Keeper::of(&settings.keeping, &identity);
     let refined = match &settings.keeping.resume {
-        None => refine(scene, bvh, occluder, pool, config, refining, probes, &mut watch),
+        None => {
+            pool.run(|| refine(scene, bvh, occluder, pool, config, refining, probes, &mut watch))
+        }
         Some(path) => {
             let kept = checkpoint::read(path, &identity)?;
             watch.kept = kept.finished_elements();
             screen::say(&format!("{}: going on from there", path.display()));
-            resume(kept, scene, bvh, occluder, pool, config, refining, probes, &mut watch)
-                .map_err(|e| checkpoint::inconsistent(path, e))?
+            pool.run(|| {
+                resume(kept, scene, bvh, occluder, pool, config, refining, probes, &mut watch)
+            })
+            .map_err(|e| checkpoint::inconsistent(path, e))?
         }
     };
     refuse_endless(refined.reason)?;

@@ -51,6 +51,15 @@ impl Pool {
         Ok(Self { pool: Some(pool), threads, schedule })
     }
 
+    /// Runs `work` on a thread of the pool, and waits for it: its loops then start without waking the
+    /// pool first, which pays where many loops follow each other.
+    pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
+    }
+
     /// How the items are shared out.
     #[must_use]
     pub fn schedule(&self) -> Loop {

@@ -11,12 +11,12 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use glam::DVec3;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 use scene::VertexId;
-use smallvec::SmallVec;
 
 use super::Node;
-use super::cut::{Edge, edge};
+use super::cut::Edge;
+use super::edges::{EdgeId, Edges, Length};
 use super::grade::Grade;
 use super::triangle_area;
 
@@ -54,14 +54,11 @@ impl Forest {
 
     /// Grows to about `elements` leaves: stops when the next edge would leave more than that.
     pub(super) fn grow(self, plan: &Plan, elements: usize) -> Self {
-        let mut grower = Grower::new(self, plan, elements);
+        let mut grower = Grower::new(self, plan);
         while grower.leaves < elements && grower.halve_longest(elements) {}
         Self { vertices: grower.vertices, nodes: grower.nodes, barriers: grower.barriers }
     }
 }
-
-/// No room is reserved for more edges than these: elements may be asked for that never come.
-const MOST_RESERVED: usize = 1 << 20;
 
 struct Grower<'a> {
     plan: &'a Plan<'a>,
@@ -70,11 +67,10 @@ struct Grower<'a> {
     /// Of each node.
     state: Vec<Growth>,
     leaves: usize,
-    /// The leaves at each edge of the present mesh; at most two unless surfaces meet there.
-    at_edge: FxHashMap<Edge, SmallVec<[u32; 2]>>,
+    edges: Edges,
     /// Edges by what they count for, the longest first; ties go to the smallest vertices. An edge
     /// between leaves of two densities is here twice. Halved ones stay until their turn comes.
-    queue: BinaryHeap<(Length, Reverse<Edge>)>,
+    queue: BinaryHeap<(Length, Reverse<Edge>, EdgeId)>,
     barriers: FxHashSet<Edge>,
 }
 
@@ -85,41 +81,8 @@ struct Growth {
     depth: u32,
 }
 
-/// A squared length, ordered: never NaN, since vertices are finite.
-#[derive(PartialEq)]
-pub(super) struct Length(pub(super) f64);
-
-impl Length {
-    /// The length, rounded to 24 binary digits: edges that are alike but for rounding stay alike,
-    /// and their vertices decide, in whatever unit and wherever the scene is.
-    pub(super) fn of(squared: f64) -> Self {
-        const LOST: u32 = f64::MANTISSA_DIGITS - f32::MANTISSA_DIGITS;
-        let half = 1 << (LOST - 1);
-        // Carries into the exponent as rounding up should; infinity stays above all.
-        Self(f64::from_bits((squared.to_bits() + half) >> LOST << LOST))
-    }
-}
-
-impl Eq for Length {}
-
-impl PartialOrd for Length {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Length {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
-
-fn edges([a, b, c]: [VertexId; 3]) -> [Edge; 3] {
-    [edge(a, b), edge(b, c), edge(c, a)]
-}
-
 impl<'a> Grower<'a> {
-    fn new(forest: Forest, plan: &'a Plan, elements: usize) -> Self {
+    fn new(forest: Forest, plan: &'a Plan) -> Self {
         let Forest { vertices, nodes, barriers } = forest;
         let mut state = vec![Growth { density: 1.0, depth: 0 }; nodes.len()];
         for (id, node) in nodes.iter().enumerate() {
@@ -130,24 +93,14 @@ impl<'a> Grower<'a> {
                 state[id].density = density[node.elements.start as usize];
             }
         }
-        let leaves: Vec<u32> =
-            (0u32..).zip(&nodes).filter_map(|(id, node)| node.is_leaf().then_some(id)).collect();
-        let mut grower = Self {
-            plan,
-            vertices,
-            nodes,
-            state,
-            leaves: leaves.len(),
-            // Three edges for two elements, and room for those that are one-sided.
-            at_edge: FxHashMap::with_capacity_and_hasher(
-                (2 * elements).min(MOST_RESERVED),
-                Default::default(),
-            ),
-            queue: BinaryHeap::new(),
-            barriers,
-        };
-        for leaf in leaves {
-            grower.enter(leaf, |_| true);
+        let edges = Edges::of_leaves(&nodes, &vertices);
+        let leaves = nodes.iter().filter(|node| node.is_leaf()).count();
+        let queue = BinaryHeap::new();
+        let mut grower = Self { plan, vertices, nodes, state, leaves, edges, queue, barriers };
+        for leaf in 0..grower.nodes.len() as u32 {
+            if grower.nodes[leaf as usize].is_leaf() {
+                grower.enter(leaf, grower.edges.of(leaf), [true; 3]);
+            }
         }
         grower
     }
@@ -155,14 +108,14 @@ impl<'a> Grower<'a> {
     /// Halves the edge that counts for the longest, or one on the way to it, unless that would
     /// leave more than `most` leaves.
     fn halve_longest(&mut self, most: usize) -> bool {
-        while let Some((_, Reverse(edge))) = self.queue.peek()
-            && !self.at_edge.contains_key(edge)
+        while let Some((_, _, edge)) = self.queue.peek()
+            && self.edges.leaves(*edge).is_empty()
         {
             self.queue.pop();
         }
-        let Some(&(_, Reverse(edge))) = self.queue.peek() else { return false };
+        let Some(&(_, _, edge)) = self.queue.peek() else { return false };
         let edge = self.end_of_chain(edge);
-        if self.leaves + self.at_edge[&edge].len() > most {
+        if self.leaves + self.edges.leaves(edge).len() > most {
             return false;
         }
         self.halve(edge);
@@ -171,82 +124,83 @@ impl<'a> Grower<'a> {
 
     /// Follows longer and longer edges of leaves from `edge`, to one that is the longest of all
     /// its leaves. Each is longer than the one before, so the way ends.
-    fn end_of_chain(&self, mut edge: Edge) -> Edge {
+    fn end_of_chain(&self, mut edge: EdgeId) -> EdgeId {
         loop {
-            let leaves = self.at_edge[&edge].iter();
-            let edges = leaves.flat_map(|&leaf| edges(self.nodes[leaf as usize].vertices));
-            let longest = edges.max_by_key(|&e| self.rank(e)).unwrap_or(edge);
-            if self.rank(longest) <= self.rank(edge) {
+            let leaves = self.edges.leaves(edge).iter();
+            let edges = leaves.flat_map(|&leaf| self.edges.of(leaf));
+            let longest = edges.max_by_key(|&e| self.edges.rank(e)).unwrap_or(edge);
+            if self.edges.rank(longest) <= self.edges.rank(edge) {
                 return edge;
             }
             edge = longest;
         }
     }
 
-    /// Orders edges by their true length; ties go to the smallest vertices.
-    fn rank(&self, edge: Edge) -> (Length, Reverse<Edge>) {
-        let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
-        (Length::of((q - p).length_squared()), Reverse(edge))
-    }
-
-    fn halve(&mut self, edge: Edge) {
-        let leaves = self.at_edge.remove(&edge).unwrap_or_default();
-        let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
+    fn halve(&mut self, edge: EdgeId) {
+        let leaves = self.edges.take_leaves(edge);
+        let ends = self.edges.ends(edge);
+        let (p, q) = (self.vertices[ends.0.index()], self.vertices[ends.1.index()]);
         let middle = VertexId::from(self.vertices.len());
         self.vertices.push(p.midpoint(q));
-        if self.barriers.remove(&edge) {
-            // A new vertex is greater than all before.
-            self.barriers.extend([(edge.0, middle), (edge.1, middle)]);
+        // A new vertex is greater than all before.
+        let halves = [(ends.0, middle), (ends.1, middle)];
+        if self.barriers.remove(&ends) {
+            self.barriers.extend(halves);
         }
+        let halves = halves.map(|half| self.edges.add(half, &self.vertices));
         for leaf in leaves {
-            self.bisect(leaf, edge, middle);
+            self.bisect(leaf, edge, halves, middle);
         }
     }
 
-    fn bisect(&mut self, leaf: u32, edge: Edge, middle: VertexId) {
+    /// Splits a leaf at the middle of one of its edges, whose halves are those of its smaller and
+    /// its greater end.
+    fn bisect(&mut self, leaf: u32, edge: EdgeId, halves: [EdgeId; 2], middle: VertexId) {
         let Node { vertices, root, .. } = self.nodes[leaf as usize];
+        let own = self.edges.of(leaf);
         // Turn the triangle so that the halved edge is a–b; the winding stays.
-        let turn = edges(vertices).iter().position(|e| *e == edge);
+        let turn = own.iter().position(|e| *e == edge);
         let turn = turn.expect("a leaf is entered only at its own edges");
         let [a, b, c] = [0, 1, 2].map(|i| vertices[(i + turn) % 3]);
-        for other in edges(vertices) {
-            if other != edge
-                && let Some(leaves) = self.at_edge.get_mut(&other)
-            {
-                leaves.retain(|l| *l != leaf);
-            }
-        }
+        let [_, bc, ca] = [0, 1, 2].map(|i| own[(i + turn) % 3]);
+        let [am, mb] = if a < b { halves } else { [halves[1], halves[0]] };
+        let mc = self.edges.add((c, middle), &self.vertices);
+        self.edges.leave(bc, leaf);
+        self.edges.leave(ca, leaf);
         let first = self.nodes.len() as u32;
         self.nodes[leaf as usize].children = first..first + 2;
         self.leaves += 1;
         let Growth { density, depth } = self.state[leaf as usize];
-        for vertices in [[a, middle, c], [middle, b, c]] {
+        for (vertices, own, new) in [
+            ([a, middle, c], [am, mc, ca], [true, true, false]),
+            ([middle, b, c], [mb, bc, mc], [true, false, true]),
+        ] {
             self.nodes.push(Node::leaf(vertices, root));
             self.state.push(Growth { density, depth: depth + 1 });
-            // The other edges are in the queue already, for the leaf that this was.
-            self.enter(self.nodes.len() as u32 - 1, |edge| edge.1 == middle);
+            // The other edge is in the queue already, for the leaf that this was.
+            self.enter(self.nodes.len() as u32 - 1, own, new);
         }
     }
 
     /// Enters a leaf at its edges, and the new ones among them in the queue if it may be halved.
-    fn enter(&mut self, leaf: u32, new: impl Fn(Edge) -> bool) {
+    fn enter(&mut self, leaf: u32, own: [EdgeId; 3], new: [bool; 3]) {
         let vertices = self.nodes[leaf as usize].vertices;
         let Growth { density, depth } = self.state[leaf as usize];
         let place = vertices.map(|v| self.vertices[v.index()]);
         let may = depth < self.plan.most_depth && triangle_area(place) > self.plan.least_area;
         // Where some leaves may not be halved, an edge that they know may not be in the queue.
         let limited = self.plan.least_area > 0.0 || self.plan.most_depth < u32::MAX;
-        for edge in edges(vertices) {
-            let leaves = self.at_edge.entry(edge).or_default();
-            let known = leaves
-                .iter()
-                .any(|&other| self.state[other as usize].density.total_cmp(&density).is_eq());
-            leaves.push(leaf);
-            if may && new(edge) && (!known || limited) {
-                let (p, q) = (self.vertices[edge.0.index()], self.vertices[edge.1.index()]);
+        for (edge, new) in own.into_iter().zip(new) {
+            let mut others = self.edges.leaves(edge).iter();
+            let known =
+                others.any(|&other| self.state[other as usize].density.total_cmp(&density).is_eq());
+            if may && new && (!known || limited) {
+                let ends = self.edges.ends(edge);
+                let (p, q) = (self.vertices[ends.0.index()], self.vertices[ends.1.index()]);
                 let squared = self.plan.grade.squared_length(p, q) * density;
-                self.queue.push((Length::of(squared), Reverse(edge)));
+                self.queue.push((Length::of(squared), Reverse(ends), edge));
             }
         }
+        self.edges.enter(leaf, own);
     }
 }

@@ -9,7 +9,8 @@ use std::collections::BinaryHeap;
 
 use scene::VertexId;
 
-use super::bisect::{Forest, Length, Plan};
+use super::bisect::{Forest, Plan};
+use super::edges::Length;
 use super::{Node, triangle_area};
 
 impl Forest {

@@ -4,6 +4,7 @@
 mod bisect;
 mod centroid;
 mod cut;
+mod edges;
 mod grade;
 mod patch;
 mod points;
@@ -16,6 +17,7 @@ use rustc_hash::FxHashSet;
 use scene::{Face, Rgb, Scene, TriangleId, VertexId};
 
 use crate::config::{MeshConfig, Split};
+use crate::executor::{Executor, Sequential};
 use bisect::{Forest, Plan};
 use cut::Edge;
 use grade::Grade;
@@ -129,6 +131,12 @@ impl Mesh {
     /// N·log N.
     #[must_use]
     pub fn from_scene(scene: &Scene, config: &MeshConfig) -> Self {
+        Self::from_scene_with(scene, config, &Sequential)
+    }
+
+    /// The same mesh, made with an executor: it places the receiver points, a third of the work.
+    #[must_use]
+    pub fn from_scene_with<E: Executor>(scene: &Scene, config: &MeshConfig, executor: &E) -> Self {
         let extent = weld::extent(scene);
         let Roots { vertices, roots, corners, barriers, covered } =
             weld::roots(scene, config.cut, extent);
@@ -137,7 +145,7 @@ impl Mesh {
             false => Grade::default(),
         };
         let forest = Forest::of_roots(vertices, corners, barriers);
-        Self::grown(forest, roots, extent, covered, &grade, None, config)
+        Self::grown(forest, roots, extent, covered, &grade, None, config, executor)
     }
 
     /// Splits this mesh further, to about `config.elements` elements, more of them where
@@ -149,6 +157,20 @@ impl Mesh {
     /// If there are fewer densities than elements.
     #[must_use]
     pub fn refined(&self, density: &[f64], config: &MeshConfig) -> Self {
+        self.refined_with(density, config, &Sequential)
+    }
+
+    /// The same mesh, made with an executor; see [`Mesh::from_scene_with`].
+    ///
+    /// # Panics
+    /// If there are fewer densities than elements.
+    #[must_use]
+    pub fn refined_with<E: Executor>(
+        &self,
+        density: &[f64],
+        config: &MeshConfig,
+        executor: &E,
+    ) -> Self {
         let corners: Vec<_> = self.nodes[..self.roots.len()].iter().map(|n| n.vertices).collect();
         let grade = match config.graded {
             true => Grade::of(&self.vertices, &self.roots, &corners),
@@ -159,11 +181,12 @@ impl Mesh {
             nodes: self.nodes.clone(),
             barriers: self.barriers.clone(),
         };
-        let roots = self.roots.clone();
-        Self::grown(forest, roots, self.extent, self.covered, &grade, Some(density), config)
+        let (roots, extent, covered) = (self.roots.clone(), self.extent, self.covered);
+        Self::grown(forest, roots, extent, covered, &grade, Some(density), config, executor)
     }
 
-    fn grown(
+    #[expect(clippy::too_many_arguments, reason = "each is a part of the mesh, or how it is made")]
+    fn grown<E: Executor>(
         forest: Forest,
         roots: Vec<Root>,
         extent: f64,
@@ -171,6 +194,7 @@ impl Mesh {
         grade: &Grade,
         density: Option<&[f64]>,
         config: &MeshConfig,
+        executor: &E,
     ) -> Self {
         let MeshConfig { least_area, most_depth, .. } = *config;
         let plan = Plan { grade, density, least_area, most_depth };
@@ -181,7 +205,7 @@ impl Mesh {
         let mut mesh = Self { vertices, roots, nodes, extent, covered, ..Self::default() };
         patch::number_elements(&mut mesh);
         patch::choose(&mut mesh, config.patch_elements.max(1));
-        points::place(&mut mesh, &barriers);
+        points::place(&mut mesh, &barriers, executor);
         mesh.barriers = barriers;
         mesh
     }

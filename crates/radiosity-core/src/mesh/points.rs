@@ -8,6 +8,7 @@
 //! little into the sector, off the rim where visibility and form factors are undecided.
 
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 use glam::DVec3;
 use rustc_hash::FxHashSet;
@@ -15,6 +16,7 @@ use scene::VertexId;
 
 use super::Mesh;
 use super::cut::{Edge, edge};
+use crate::executor::Executor;
 
 /// Neighbours whose normals are closer than this angle, in radians, are coplanar: far above
 /// the rounding of f64 normals, far below any crease one could see.
@@ -46,60 +48,109 @@ struct Corner {
     which: u32,
 }
 
+/// Vertices or points per run of an executor.
+const RUN: usize = 1024;
+
 /// Places the points, numbered in the order in which the elements first use them.
-pub(super) fn place(mesh: &mut Mesh, barriers: &FxHashSet<Edge>) {
+pub(super) fn place<E: Executor>(mesh: &mut Mesh, barriers: &FxHashSet<Edge>, executor: &E) {
     const NONE: u32 = u32::MAX;
-    let (starts, corners) = corners_by_vertex(mesh);
-    // Sector leader of each element corner.
-    let mut leader = vec![[NONE; 3]; mesh.elements.len()];
-    let mut point_of_leader: Vec<[u32; 3]> = vec![[NONE; 3]; mesh.elements.len()];
-    let mut sectors = Sectors::default();
-    for vertex in 0..mesh.vertices.len() {
-        let at = &corners[starts[vertex] as usize..starts[vertex + 1] as usize];
-        sectors.find(mesh, at, vertex as u32, barriers);
-        for (i, corner) in at.iter().enumerate() {
-            let first = at[sectors.leader(i)];
-            leader[corner.element as usize][corner.which as usize] =
-                first.element * 3 + first.which;
-        }
-    }
-    for e in 0..mesh.elements.len() {
+    let around = Around::of(mesh);
+    let leaders = around.leaders(mesh, barriers, executor);
+    // Number them; the first corner to use a point is in the sector that it is of.
+    let mut point_of_leader = vec![NONE; leaders.len()];
+    let mut of_points: Vec<(u32, u32)> = Vec::new();
+    for (element, slots) in mesh.elements.iter_mut().zip(&around.slots) {
         for k in 0..3 {
-            let l = leader[e][k];
-            let (le, lk) = ((l / 3) as usize, (l % 3) as usize);
-            if point_of_leader[le][lk] == NONE {
-                point_of_leader[le][lk] = mesh.points.len() as u32;
-                let vertex = mesh.elements[e].vertices[k].index();
-                let at = &corners[starts[vertex] as usize..starts[vertex + 1] as usize];
-                let sector =
-                    at.iter().filter(|c| leader[c.element as usize][c.which as usize] == l);
-                let point = position(mesh, mesh.vertices[vertex], sector);
-                mesh.points.push(point);
+            let leader = leaders[slots[k] as usize];
+            let point = &mut point_of_leader[leader as usize];
+            if *point == NONE {
+                *point = of_points.len() as u32;
+                of_points.push((element.vertices[k].0, leader));
             }
-            mesh.elements[e].points[k] = point_of_leader[le][lk];
+            element.points[k] = *point;
         }
     }
+    let nowhere = ReceiverPoint { position: DVec3::ZERO, normal: DVec3::ZERO, triangle: 0 };
+    let mut points = vec![nowhere; of_points.len()];
+    let mut runs: Vec<_> = of_points.chunks(RUN).zip(points.chunks_mut(RUN)).collect();
+    executor.for_each(&mut runs, |(of_points, points)| {
+        for ((vertex, leader), point) in of_points.iter().zip(points.iter_mut()) {
+            let at = around.at(*vertex);
+            let sector = at.clone().filter(|slot| leaders[*slot] == *leader);
+            let corners = sector.map(|slot| &around.corners[slot]);
+            *point = position(mesh, mesh.vertices[*vertex as usize], corners);
+        }
+    });
+    mesh.points = points;
 }
 
-/// The element corners at each vertex: starts per vertex, and the corners in element order.
-fn corners_by_vertex(mesh: &Mesh) -> (Vec<u32>, Vec<Corner>) {
-    let mut starts = vec![0u32; mesh.vertices.len() + 1];
-    for v in mesh.elements.iter().flat_map(|e| e.vertices) {
-        starts[v.index() + 1] += 1;
-    }
-    for i in 0..mesh.vertices.len() {
-        starts[i + 1] += starts[i];
-    }
-    let mut next = starts.clone();
-    let mut corners = vec![Corner { element: 0, which: 0 }; 3 * mesh.elements.len()];
-    for (element, e) in mesh.elements.iter().enumerate() {
-        for (which, v) in e.vertices.iter().enumerate() {
-            let slot = &mut next[v.index()];
-            corners[*slot as usize] = Corner { element: element as u32, which: which as u32 };
-            *slot += 1;
+/// The element corners around each vertex.
+struct Around {
+    /// Where those of each vertex start.
+    starts: Vec<u32>,
+    /// In element order at each vertex.
+    corners: Vec<Corner>,
+    /// Where each element's corners are among them.
+    slots: Vec<[u32; 3]>,
+}
+
+impl Around {
+    fn of(mesh: &Mesh) -> Self {
+        let mut starts = vec![0u32; mesh.vertices.len() + 1];
+        for v in mesh.elements.iter().flat_map(|e| e.vertices) {
+            starts[v.index() + 1] += 1;
         }
+        for i in 0..mesh.vertices.len() {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut corners = vec![Corner { element: 0, which: 0 }; 3 * mesh.elements.len()];
+        let slots = (0u32..).zip(&mesh.elements).map(|(element, e)| {
+            [0, 1, 2].map(|which| {
+                let slot = &mut next[e.vertices[which as usize].index()];
+                corners[*slot as usize] = Corner { element, which };
+                *slot += 1;
+                *slot - 1
+            })
+        });
+        let slots = slots.collect();
+        Self { starts, corners, slots }
     }
-    (starts, corners)
+
+    /// The corners at a vertex.
+    fn at(&self, vertex: u32) -> Range<usize> {
+        self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize
+    }
+
+    /// The first corner in the sector of each.
+    fn leaders<E: Executor>(
+        &self,
+        mesh: &Mesh,
+        barriers: &FxHashSet<Edge>,
+        executor: &E,
+    ) -> Vec<u32> {
+        let mut leaders = vec![0; self.corners.len()];
+        let mut rest = leaders.as_mut_slice();
+        let mut runs = Vec::new();
+        for first in (0..mesh.vertices.len()).step_by(RUN) {
+            let vertices = first as u32..mesh.vertices.len().min(first + RUN) as u32;
+            let slots = self.starts[vertices.end as usize] - self.starts[first];
+            let slots = rest.split_off_mut(..slots as usize).expect("all corners have slots");
+            runs.push((vertices, slots));
+        }
+        executor.for_each(&mut runs, |(vertices, slots)| {
+            let mut sectors = Sectors::default();
+            let first = self.starts[vertices.start as usize] as usize;
+            for vertex in vertices.clone() {
+                let at = self.at(vertex);
+                sectors.find(mesh, &self.corners[at.clone()], vertex, barriers);
+                for (i, slot) in at.clone().enumerate() {
+                    slots[slot - first] = (at.start + sectors.leader(i)) as u32;
+                }
+            }
+        });
+        leaders
+    }
 }
 
 /// Union–find over the corners at one vertex; scratch space kept between vertices.

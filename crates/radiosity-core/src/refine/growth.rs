@@ -93,8 +93,10 @@ impl<E: Executor> Setting<'_, E> {
             ..MeshConfig::with_elements(growth.elements)
         };
         match (&growth.density, before) {
-            (Some(Density(density)), Some(mesh)) => mesh.refined(density, &config),
-            _ => Mesh::from_scene(self.scene, &config),
+            (Some(Density(density)), Some(mesh)) => {
+                mesh.refined_with(density, &config, self.executor)
+            }
+            _ => Mesh::from_scene_with(self.scene, &config, self.executor),
         }
     }
 
