@@ -13,7 +13,7 @@ use crate::executor::Executor;
 use crate::observer::Stopper;
 
 /// Receivers per run: their segments from one cell form a batch.
-const RUN: usize = 1024;
+const RUN: usize = 512;
 
 impl<E: Executor> Shooting<'_, E> {
     /// Lights every receiver point, every probe and the inside of near elements by each of the
