@@ -31,6 +31,17 @@ pub(super) struct Solved {
     /// Cores that other programs kept busy meanwhile, on average; nothing where unknown.
     pub(super) others: Option<f64>,
     pub(super) series: Vec<Series>,
+    /// What the machine itself can do; nothing where it has one core.
+    pub(super) copies: Option<Copies>,
+}
+
+/// Programs of one thread that ran at once, which share nothing but the machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Copies {
+    pub(super) programs: usize,
+    /// Mean wall time of occluder and solve over the programs, one for each round.
+    pub(super) seconds: Vec<f64>,
 }
 
 /// One mode with each number of threads.
@@ -85,6 +96,11 @@ impl Measurement {
             for series in &solved.series {
                 series.check().map_err(|e| failed(format!("{}: {e}", solved.scene.name())))?;
             }
+            let rounds = solved.series.first().map_or(0, |series| series.points[0].seconds.len());
+            if solved.copies.as_ref().is_some_and(|copies| copies.seconds.len() != rounds) {
+                let scene = solved.scene.name();
+                return Err(failed(format!("{scene}: expected copies in {rounds} rounds")));
+            }
         }
         Ok(read)
     }
@@ -93,6 +109,17 @@ impl Measurement {
     pub(super) fn write(&self, path: &Path) -> Result<(), String> {
         let text = serde_json::to_string_pretty(self).map_err(|e| e.to_string())?;
         precision::write(path, &(text + "\n"))
+    }
+}
+
+impl Solved {
+    /// How many times the work of one program the copies did in its time: no program's threads can
+    /// do more on this machine.
+    pub(super) fn most(&self) -> Option<(usize, Spread)> {
+        let Copies { programs, seconds } = self.copies.as_ref()?;
+        let alone = &self.series.first()?.points.first()?.seconds;
+        let most = alone.iter().zip(seconds).map(|(one, many)| *programs as f64 * one / many);
+        Some((*programs, Spread::of(&most.collect::<Vec<_>>())))
     }
 }
 

@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
     runs: NonZero<usize>,
 
     /// Elements of each mesh, about
-    #[arg(long, value_name = "N", default_value = "8000")]
+    #[arg(long, value_name = "N", default_value = "50000")]
     elements: NonZero<usize>,
 
     /// Run nothing: draw again what the folder holds
@@ -102,7 +102,7 @@ fn measure(root: &Path, arguments: &Arguments) -> Result<Measurement, String> {
         runs: arguments.runs.get(),
     };
     let program = Program::build(root, "bench")?;
-    let scenes = arguments.scenes().map(|scene| plan.measure(&program, root, scene));
+    let scenes = arguments.scenes().map(|scene| plan.measure(&program, root, scene, machine.cores));
     Ok(Measurement { scenes: scenes.collect::<Result<_, _>>()?, machine, elements })
 }
 
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(arguments.schedules, ["multi:4"]);
         assert_eq!(arguments.scenes().collect::<Vec<_>>(), [Scene::Room, Scene::Blocks]);
         let bare = parsed("").unwrap();
-        assert_eq!((bare.runs.get(), bare.elements.get()), (5, 8000));
+        assert_eq!((bare.runs.get(), bare.elements.get()), (5, 50_000));
         assert_eq!(bare.scenes().count(), Scene::ALL.len());
     }
 

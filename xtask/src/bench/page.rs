@@ -45,7 +45,7 @@ fn scene(solved: &Solved, cores: usize) -> String {
         ),
         meanwhile(solved.others, cores),
         rows(solved, cores),
-        shares(solved, cores),
+        [shares(solved, cores), most(solved)].concat(),
     ];
     parts.join("\n\n")
 }
@@ -101,6 +101,18 @@ fn row(series: &Series, point: &Timed, cores: usize) -> Vec<String> {
         format!("{}{ends}", digits(median, 3)),
         percent(median / *threads as f64),
     ]
+}
+
+/// What the machine can do at most.
+fn most(solved: &Solved) -> String {
+    let Some((programs, Spread { median, least, most })) = solved.most() else {
+        return String::new();
+    };
+    let [median, least, most] = [median, least, most].map(|n| digits(n, 3));
+    format!(
+        "\n- {programs} programs of one thread at once do {median} ({least}–{most}) times the work of \
+         one: the most that threads can reach on this machine"
+    )
 }
 
 /// The serial share of each mode.
@@ -165,6 +177,7 @@ Other programs kept 0.25 of 2 cores busy meanwhile. **These are not the times of
 
 - serial share 25 % (0 % to 25 % in single rounds), fitted to 1, 2 threads
 - `--loop static`: no serial share: that needs two threads with a core each
+- 2 programs of one thread at once do 1.60 (1.60–2.00) times the work of one: the most that threads can reach on this machine
 
 <!-- end: figures -->
 ";

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::measurement::{Mode, Series, Solved, Timed};
+use super::measurement::{Copies, Mode, Series, Solved, Timed};
 use super::others::Clock;
 use super::scene::Scene;
 use super::threads::Threads;
@@ -50,9 +50,13 @@ impl Plan {
         program: &Program,
         root: &Path,
         scene: Scene,
+        cores: usize,
     ) -> Result<Solved, String> {
         let file = scene.path(root);
-        let mut solved = Solved { scene, file, elements: 0, others: None, series: self.series() };
+        let series = self.series();
+        let programs = self.threads.iter().filter(|t| (2..=cores).contains(t)).max();
+        let copies = programs.map(|programs| Copies { programs, seconds: Vec::new() });
+        let mut solved = Solved { scene, file, elements: 0, others: None, series, copies };
         let start = Clock::now();
         let mut firsts: BTreeMap<Option<String>, (String, String)> = BTreeMap::new();
         for round in 0..self.runs {
@@ -81,6 +85,13 @@ impl Plan {
                     solved.elements = said.work.elements;
                     point.seconds.push(said.seconds);
                 }
+            }
+            if let Some(Copies { programs, seconds: means }) = &mut solved.copies {
+                let settings = self.settings(&solved.series[0].mode, 1);
+                let said = program.solve_at_once(*programs, &solved.file, &settings)?;
+                let mean = said.iter().map(|s| s.seconds).sum::<f64>() / *programs as f64;
+                println!("  {programs} programs of one thread at once: {}", seconds(mean));
+                means.push(mean);
             }
         }
         solved.others = start.zip(Clock::now()).and_then(|(start, end)| start.others_until(end));

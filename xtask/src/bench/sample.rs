@@ -1,6 +1,6 @@
 //! A small measurement for tests: made up, round, and with every case in it.
 
-use super::measurement::{Measurement, Mode, Series, Solved, Timed};
+use super::measurement::{Copies, Measurement, Mode, Series, Solved, Timed};
 use super::scene::Scene;
 use crate::precision::Machine;
 
@@ -22,6 +22,7 @@ pub(super) fn measurement() -> Measurement {
             elements: 7999,
             others: Some(0.25),
             series,
+            copies: Some(Copies { programs: 2, seconds: vec![10.0, 20.0, 8.0] }),
         }],
     }
 }

@@ -62,7 +62,31 @@ impl Program {
     /// Solves a scene, given by its path from the root, with these settings, and keeps the
     /// solution for [`Self::solution`] and [`Self::compare`].
     pub(crate) fn solve(&self, scene: &str, settings: &[String]) -> Result<Said, String> {
-        let (solution, report) = (self.solution_path(), self.scratch.join("solve.json"));
+        self.solve_to("solve", scene, settings)
+    }
+
+    /// Solves a scene by so many programs at once; none of the solutions is kept.
+    pub(crate) fn solve_at_once(
+        &self,
+        programs: usize,
+        scene: &str,
+        settings: &[String],
+    ) -> Result<Vec<Said>, String> {
+        std::thread::scope(|scope| {
+            let run = |i: usize| {
+                scope.spawn(move || self.solve_to(&format!("copy-{i}"), scene, settings))
+            };
+            let running: Vec<_> = (0..programs).map(run).collect();
+            let said = running.into_iter().map(|thread| {
+                thread.join().unwrap_or_else(|_| Err("a thread that ran it panicked".into()))
+            });
+            said.collect()
+        })
+    }
+
+    fn solve_to(&self, name: &str, scene: &str, settings: &[String]) -> Result<Said, String> {
+        let [solution, report] =
+            ["csv", "json"].map(|end| self.scratch.join(format!("{name}.{end}")));
         let mut command = Command::new(&self.path);
         command.arg("solve").arg(scene).args(settings);
         command.arg("-o").arg(solution).arg("--report").arg(&report);
