@@ -18,9 +18,12 @@ pub(super) struct Lit<'a> {
     pub(super) solution: &'a Solution,
 }
 
-/// How many times as many elements the finer mesh has: by their number, or as the geometric mean over
-/// the area if that is less. Where meshes follow the light, elements may have gone to a small part of
-/// it, and the difference on the rest says less than their number would have it.
+/// How many times as many elements the finer mesh has, as far as its difference from the coarser one
+/// is concerned.
+///
+/// Where meshes follow the light, it is not the same everywhere. By number it would be right if all
+/// elements erred alike; as the geometric mean over the area, if all places did. The truth lies
+/// between, and so does this: the geometric mean of both.
 pub(super) fn finer(coarse: &Mesh, fine: &Mesh) -> f64 {
     let by_number = fine.elements.len() as f64 / coarse.elements.len().max(1) as f64;
     let (mut logarithms, mut area) = (0.0, 0.0);
@@ -29,7 +32,7 @@ pub(super) fn finer(coarse: &Mesh, fine: &Mesh) -> f64 {
         logarithms += own * (parts.elements.len() as f64).log2();
         area += own;
     }
-    if area > 0.0 { (logarithms / area).exp2().min(by_number) } else { 1.0 }
+    if area > 0.0 { (by_number * (logarithms / area).exp2()).sqrt() } else { 1.0 }
 }
 
 /// Differences of the means of the input triangles' sides.

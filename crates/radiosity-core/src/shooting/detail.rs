@@ -24,10 +24,11 @@ impl Detail {
     }
 
     /// What shots are held to: exact form factors everywhere, a sixteenth of the light per
-    /// segment, up to 256 segments from one element, twice the distance at which elements
-    /// shine for themselves.
+    /// segment, up to 256 segments from one element, five times the distance at which elements
+    /// shine for themselves: at twice, a third of what patches of 40 elements err by in the Cornell
+    /// box stayed unseen; at eight times no more is seen.
     pub(super) fn second_estimate(config: &ShootingConfig) -> Self {
         let cell_share = config.cell_share / 16.0;
-        Self { tolerance: 0.0, cell_share, quarterings: 4, open_radii: 5.0 }
+        Self { tolerance: 0.0, cell_share, quarterings: 4, open_radii: 12.0 }
     }
 }
