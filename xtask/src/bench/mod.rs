@@ -58,7 +58,7 @@ pub(crate) struct Arguments {
     runs: NonZero<usize>,
 
     /// Elements of each mesh, about
-    #[arg(long, value_name = "N", default_value = "50000")]
+    #[arg(long, value_name = "N", default_value = "20000")]
     elements: NonZero<usize>,
 
     /// Run nothing: draw again what the folder holds
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(arguments.schedules, ["multi:4"]);
         assert_eq!(arguments.scenes().collect::<Vec<_>>(), [Scene::Room, Scene::Blocks]);
         let bare = parsed("").unwrap();
-        assert_eq!((bare.runs.get(), bare.elements.get()), (5, 50_000));
+        assert_eq!((bare.runs.get(), bare.elements.get()), (5, 20_000));
         assert_eq!(bare.scenes().count(), Scene::ALL.len());
     }
 
