@@ -211,6 +211,7 @@ fn reached(reached: Reached) -> &'static str {
         Reached::Error => "error",
         Reached::Elements => "elements",
         Reached::ElementLimit | Reached::SizeLimit | Reached::Stopped => "limit",
+        Reached::Unseen => "unseen",
         Reached::Shooting => "shooting",
     }
 }

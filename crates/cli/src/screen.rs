@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use radiosity_core::{LevelReport, Parts, Statement};
+use radiosity_core::{LevelReport, Parts, Reached, Statement};
 
 use crate::failure::Failure;
 
@@ -32,8 +32,8 @@ pub(crate) fn level(report: &LevelReport, elapsed: f64) {
     ));
 }
 
-/// Says how wrong the light may be.
-pub(crate) fn statement(statement: Option<&Statement>) {
+/// Says how wrong the light may be, and if nothing is known of that, why.
+pub(crate) fn statement(statement: Option<&Statement>, reached: Reached) {
     let Some(statement) = statement else { return };
     let parts = |p: &Parts| {
         format!(
@@ -63,10 +63,18 @@ pub(crate) fn statement(statement: Option<&Statement>) {
         say(&format!("       at the probes {}", parts(&probes.e1)));
     }
     if triangles.e1.mesh.is_infinite() {
-        warning(
-            "one mesh says nothing of its own error: ask for more --elements, at least one and a \
-             half times as many as the scene's own triangles make, or for --error",
-        );
+        warning(match reached {
+            Reached::Unseen => {
+                "no mesh saw any surface but lamps receive light: how much is missed is unknown"
+            }
+            Reached::SizeLimit => {
+                "one mesh says nothing of its own error, and --min-area or --max-depth allow no other"
+            }
+            _ => {
+                "one mesh says nothing of its own error: ask for more --elements, at least one and \
+                 a half times as many as the scene's own triangles make, or for --error"
+            }
+        });
     }
 }
 

@@ -18,7 +18,7 @@ pub use checkpoint::{Checkpoint, Inconsistent, Kept};
 pub use config::{Correction, Exchange, MeshConfig, Schedule, ShootingConfig, Split, StopRule};
 pub use energy::{Ledger, RgbSum, Sum};
 pub use executor::{Executor, Sequential};
-pub use mesh::Mesh;
+pub use mesh::{Element, Mesh, Node, Patch, ReceiverPoint, Root};
 pub use observer::{Control, LevelReport, Observer, StepReport, Stopper};
 pub use refine::{
     Asked, Parts, Probe, Reached, RefineConfig, Refined, Stated, Statement, refine, resume,

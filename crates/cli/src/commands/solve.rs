@@ -294,7 +294,7 @@ fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
         percent(work.unshot),
         if refined.corrected { "; ambient corrections" } else { "" }
     ));
-    screen::statement(refined.statement.as_ref());
+    screen::statement(refined.statement.as_ref(), refined.reached);
     say_limit(solved, settings.goal);
     if let Some([least, most]) = refined.closed_rows {
         say(&format!("rows: form factors summed to {least:.6} to {most:.6}, closed to 1"));

@@ -235,3 +235,33 @@ fn snapshots_that_cannot_be_written_are_warned_of() {
     assert!(scene == box_tri().as_bytes(), "the scene is never written over");
     assert!(folder.path().join("b.csv").is_file());
 }
+
+/// Finer meshes that are the same mesh would agree with each other for ever.
+#[test]
+fn meshes_that_may_not_be_split_end_the_work() {
+    let (folder, _) = folder_with("box.tri", box_tri().as_bytes());
+    let solve = |flags: &[&str]| {
+        let run = radiosity(folder.path(), &[&["solve", "box.tri", "-o", "a.csv"], flags].concat());
+        assert_eq!(run.code(), 0, "{}", run.stderr());
+        run.stderr()
+    };
+    for flags in [
+        ["--error", "0.1%", "--max-depth", "3"],
+        ["--error", "0.1%", "--min-area", "0.2"],
+        ["--elements", "2000", "--max-depth", "4"],
+    ] {
+        let said = solve(&flags);
+        assert!(said.contains("--min-area or --max-depth ended the work"), "{flags:?}: {said}");
+    }
+    let said = solve(&["--max-depth", "0"]);
+    assert!(said.contains("allow no other") && said.contains("mesh unknown"), "{said}");
+}
+
+#[test]
+fn light_that_no_surface_receives_ends_the_work() {
+    let lamp = "Triangle 255 255 255 255 255 255 0 0 0 1 0 0 0 1 0\n";
+    let (folder, _) = folder_with("lamp.tri", lamp.as_bytes());
+    let run = radiosity(folder.path(), &["solve", "lamp.tri", "-o", "a.csv"]);
+    assert_eq!(run.code(), 0, "{}", run.stderr());
+    assert!(run.stderr().contains("how much is missed is unknown"), "{}", run.stderr());
+}

@@ -109,7 +109,7 @@ impl<'a> Grower<'a> {
     /// leave more than `most` leaves.
     fn halve_longest(&mut self, most: usize) -> bool {
         while let Some((_, _, edge)) = self.queue.peek()
-            && self.edges.leaves(*edge).is_empty()
+            && !self.may_halve(*edge)
         {
             self.queue.pop();
         }
@@ -182,19 +182,14 @@ impl<'a> Grower<'a> {
         }
     }
 
-    /// Enters a leaf at its edges, and the new ones among them in the queue if it may be halved.
+    /// Enters a leaf at its edges, and the new ones among them in the queue.
     fn enter(&mut self, leaf: u32, own: [EdgeId; 3], new: [bool; 3]) {
-        let vertices = self.nodes[leaf as usize].vertices;
-        let Growth { density, depth } = self.state[leaf as usize];
-        let place = vertices.map(|v| self.vertices[v.index()]);
-        let may = depth < self.plan.most_depth && triangle_area(place) > self.plan.least_area;
-        // Where some leaves may not be halved, an edge that they know may not be in the queue.
-        let limited = self.plan.least_area > 0.0 || self.plan.most_depth < u32::MAX;
+        let density = self.state[leaf as usize].density;
         for (edge, new) in own.into_iter().zip(new) {
             let mut others = self.edges.leaves(edge).iter();
             let known =
                 others.any(|&other| self.state[other as usize].density.total_cmp(&density).is_eq());
-            if may && new && (!known || limited) {
+            if new && !known {
                 let ends = self.edges.ends(edge);
                 let (p, q) = (self.vertices[ends.0.index()], self.vertices[ends.1.index()]);
                 let squared = self.plan.grade.squared_length(p, q) * density;
@@ -202,5 +197,17 @@ impl<'a> Grower<'a> {
             }
         }
         self.edges.enter(leaf, own);
+    }
+
+    /// Whether some leaf at an edge may be halved for its own sake; none at an edge that was.
+    /// Once there is none, there will be none: leaves only become smaller.
+    fn may_halve(&self, edge: EdgeId) -> bool {
+        let Plan { least_area, most_depth, .. } = *self.plan;
+        let large = |leaf: u32| {
+            let corners = self.nodes[leaf as usize].vertices.map(|v| self.vertices[v.index()]);
+            triangle_area(corners) > least_area
+        };
+        let mut leaves = self.edges.leaves(edge).iter();
+        leaves.any(|&leaf| self.state[leaf as usize].depth < most_depth && large(leaf))
     }
 }

@@ -37,6 +37,14 @@ const AIM: f64 = 0.8;
 /// Least growth that is worth a level.
 const LEAST_GROWTH: f64 = 1.5;
 
+/// Least growth of a mesh of which that was asked: closure and limits on the size of elements leave
+/// some out.
+const LEAST_FINER: f64 = 1.25;
+
+/// Where no surface but lamps was seen to receive light by a mesh of so many elements, finer ones are
+/// not tried.
+const MOST_UNSEEN: usize = 20_000;
+
 /// A finished level with what the levels before say of it.
 pub(super) struct Rung {
     level: Level,
@@ -92,11 +100,14 @@ impl<'a, E: Executor> Ladder<'a, E> {
                     // It has said what it knows: its room is for the next one.
                     self.done = None;
                     match self.next_allowed(&rung, statement.as_ref(), stopper.as_ref(), observer) {
-                        Ok(more) => {
-                            self.done = Some(rung);
-                            level = self.solve(more, observer);
-                            continue;
-                        }
+                        Ok(more) => match self.finer(more, &rung.level) {
+                            Some(mesh) => {
+                                self.done = Some(rung);
+                                level = self.light(mesh, None, observer);
+                                continue;
+                            }
+                            None => Reached::SizeLimit,
+                        },
                         Err(reached) => reached,
                     }
                 }
@@ -179,6 +190,9 @@ impl<'a, E: Executor> Ladder<'a, E> {
                 if statement.is_some() && parts.total() <= target && seen {
                     return Err(Reached::Error);
                 }
+                if rung.level.unseen && have >= MOST_UNSEEN {
+                    return Err(Reached::Unseen);
+                }
                 let left = target * AIM - parts.iteration - parts.form_factor;
                 let wanted = if parts.mesh.is_finite() && left > 0.0 {
                     (parts.mesh / left).powi(2).clamp(LEAST_GROWTH, GROWTH)
@@ -197,12 +211,24 @@ impl<'a, E: Executor> Ladder<'a, E> {
         }
     }
 
+    /// The first level.
     fn solve(&mut self, elements: usize, observer: &mut impl Observer) -> Level {
-        let before = self.done.as_ref().map(|rung| &rung.level);
-        let growth = self.setting.growth(elements, before);
-        let mesh = self.setting.mesh(&growth, before.map(|level| &level.mesh));
+        let growth = self.setting.growth(elements, None);
+        let mesh = self.setting.mesh(&growth, None);
         self.grown.push(growth);
         self.light(mesh, None, observer)
+    }
+
+    /// The next level's mesh, or `None` where it may hardly be split any more: levels on meshes that
+    /// are nearly the same agree, and would say that the error is small.
+    fn finer(&mut self, elements: usize, before: &Level) -> Option<Mesh> {
+        let growth = self.setting.growth(elements, Some(before));
+        let mesh = self.setting.mesh(&growth, Some(&before.mesh));
+        let least = before.elements() as f64 * LEAST_FINER;
+        (mesh.elements().len() as f64 >= least).then(|| {
+            self.grown.push(growth);
+            mesh
+        })
     }
 
     /// Lights the present level's mesh, from where it was `kept` on, if it was.

@@ -81,6 +81,8 @@ pub enum Reached {
     ElementLimit,
     /// No element may be split any more: all are as small as allowed.
     SizeLimit,
+    /// Light is shot, and no surface but lamps was seen to receive any.
+    Unseen,
     /// The observer said stop.
     Stopped,
     /// The shooting ended for a reason of its own: no light, or no end of it.

@@ -92,7 +92,8 @@ impl<E: Executor> Shooting<'_, E> {
     /// Whether it pays and does no harm. Rows that will be closed are learnt from the first sweep:
     /// its shots must be cut into the same cells as later ones, and not be brighter than they are.
     fn overshoots(&self) -> bool {
-        let learning = self.ambient.as_ref().is_some_and(|a| a.phase != Phase::LeftOut);
+        // Without corrections, guesses of bounces that come back again and again run away.
+        let learning = self.ambient.as_ref().is_none_or(|a| a.phase != Phase::LeftOut);
         let closed = || !self.census.is_empty() && !self.census.any_lost();
         let mean = self.foresight.reflecting.share_of(Rgb::splat(self.foresight.area));
         let stiff = mean.max_channel() > MOST_PLAIN;
