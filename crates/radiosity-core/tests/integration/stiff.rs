@@ -144,3 +144,14 @@ fn light_scales_with_its_source_bit_for_bit() {
         assert!(bits(exponent) == one, "2^{exponent}");
     }
 }
+
+/// Slowly, but it ends: what is shot in advance of bounces that come back a thousand times must not
+/// keep the unshot power from falling.
+#[test]
+fn a_white_box_without_corrections_converges() {
+    let mut model = Model::new();
+    let (wall, lamp) = (model.surface(0.999, 0.0), model.surface(0.999, 1.0));
+    model.cube([wall, lamp, wall, wall, wall, wall]);
+    let config = ShootingConfig { correction: Correction::Never, ..until(0.05) };
+    assert_eq!(solve(&model.scene(), 12, config).reason, StopReason::Converged);
+}
