@@ -16,6 +16,7 @@ mod report;
 mod screen;
 mod settings;
 mod snapshot;
+mod stages;
 
 use std::process::ExitCode;
 

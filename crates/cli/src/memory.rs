@@ -196,8 +196,18 @@ fn sides(scene: &Scene) -> usize {
 
 /// The resident size of this process, where /proc tells.
 fn resident() -> Option<u64> {
+    status("VmRSS:")
+}
+
+/// The largest resident size that this process ever had, where /proc tells.
+pub(crate) fn peak() -> Option<u64> {
+    status("VmHWM:")
+}
+
+/// A size in the list that Linux keeps of a process.
+fn status(name: &str) -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let line = status.lines().find_map(|line| line.strip_prefix(name))?;
     Some(line.trim().strip_suffix("kB")?.trim_end().parse::<u64>().ok()? * 1024)
 }
 
@@ -229,6 +239,7 @@ mod tests {
         if cfg!(target_os = "linux") {
             let bytes = resident().unwrap();
             assert!((100_000..100_000_000_000).contains(&bytes), "{bytes}");
+            assert!(peak().unwrap() >= bytes);
         }
     }
 }

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use accel::{Bvh, BvhConfig, Nothing, Occluder, Octree, OctreeConfig};
 use radiosity_core::{
     Asked, Census, Control, Executor, Kept, LevelReport, Mesh, MeshConfig, Observer, Probe,
-    Reached, RefineConfig, Refined, ShootingConfig, Statement, StepReport, StopReason, Stopper,
-    refine, resume,
+    Reached, RefineConfig, Refined, ShootingConfig, Stage, Statement, StepReport, StopReason,
+    Stopper, refine, resume,
 };
 use radiosity_par::{Loop, Pool};
 use scene::{Scene, Solution};
@@ -20,6 +20,7 @@ use crate::memory::{self, Budget};
 use crate::screen;
 use crate::settings::{MOST_ELEMENTS, Read, Solve, Work};
 use crate::snapshot::{Snapshot, Snapshots};
+use crate::stages::{StageSeconds, Stages};
 
 /// The unshot share must fall by this factor before the curve gets another point: 23 points
 /// per decade, whatever the number of shots.
@@ -43,6 +44,8 @@ pub(crate) struct Prepared {
 pub(crate) struct Solved {
     pub(crate) refined: Refined,
     pub(crate) seconds: f64,
+    /// What the seconds were for; the rest is what is done before the first.
+    pub(crate) stages: StageSeconds,
     pub(crate) curve: Vec<CurvePoint>,
     pub(crate) snapshots: Vec<Snapshot>,
     /// The limit that ended the work before its goal.
@@ -122,6 +125,7 @@ pub(crate) fn solve(
     let most = settings.limits.elements.unwrap_or(MOST_ELEMENTS).min(MOST_ELEMENTS);
     let mut watch = Watch {
         clock,
+        stages: Stages::default(),
         most: settings.limits.time,
         interrupt: interrupt.clone(),
         budget,
@@ -158,6 +162,7 @@ pub(crate) fn solve(
             .map_err(|e| checkpoint::inconsistent(path, e))?
         }
     };
+    watch.stages.stop();
     refuse_endless(refined.reason)?;
     let limit = match refined.reached {
         Reached::Stopped if interrupt.heard() => Some(INTERRUPT),
@@ -172,11 +177,12 @@ pub(crate) fn solve(
         keeper.say_how_to_go_on();
     }
     let seconds = watch.clock.elapsed().as_secs_f64();
+    let stages = watch.stages.seconds();
     let snapshots = watch.snapshots.map_or_else(Vec::new, |snapshots| {
         snapshots.say_failed();
         snapshots.written
     });
-    Ok(Solved { refined, seconds, curve: watch.curve, snapshots, limit })
+    Ok(Solved { refined, seconds, stages, curve: watch.curve, snapshots, limit })
 }
 
 /// What the scene's triangles are cut into, which is known only by cutting them.
@@ -216,6 +222,7 @@ impl Prepared {
 /// checkpoints.
 struct Watch<'a> {
     clock: Instant,
+    stages: Stages,
     most: Option<Duration>,
     interrupt: Interrupt,
     budget: Option<Budget>,
@@ -239,6 +246,10 @@ impl Watch<'_> {
 }
 
 impl Observer for Watch<'_> {
+    fn stage(&mut self, stage: Stage) {
+        self.stages.begin(stage);
+    }
+
     fn step(&mut self, report: &StepReport) -> Control {
         let last = self.curve[self.step..].last().map(|point| point.work.unshot);
         if last.is_none_or(|unshot| report.unshot <= unshot * CURVE_STEP) {

@@ -10,9 +10,11 @@ use scene_import::Imported;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::memory;
 use crate::pipeline::{self, Prepared, Solved};
 use crate::settings::{Goal, Solve};
 use crate::snapshot::Snapshot;
+use crate::stages::StageSeconds;
 use error::ErrorFacts;
 
 /// Version of the fields and their meaning.
@@ -32,6 +34,7 @@ pub(crate) struct Report {
     error: Option<ErrorFacts>,
     energy: Energy,
     seconds: Seconds,
+    memory: Memory,
     curve: Vec<CurvePoint>,
     snapshots: Vec<SnapshotFacts>,
     outputs: Vec<String>,
@@ -108,7 +111,13 @@ struct Seconds {
     read: f64,
     occluder: f64,
     solve: f64,
+    stages: StageSeconds,
     output: f64,
+}
+
+#[derive(Serialize)]
+struct Memory {
+    peak: Option<u64>,
 }
 
 #[derive(Serialize)]
@@ -298,8 +307,10 @@ impl Report {
                 read: run.read_seconds,
                 occluder: prepared.occluder_seconds,
                 solve: solved.seconds,
+                stages: solved.stages,
                 output: run.output_seconds,
             },
+            memory: Memory { peak: memory::peak() },
             curve: solved.curve.iter().map(CurvePoint::of).collect(),
             snapshots: solved.snapshots.iter().map(SnapshotFacts::of).collect(),
             outputs: run.outputs,

@@ -19,7 +19,7 @@ pub use config::{Correction, Exchange, MeshConfig, Schedule, ShootingConfig, Spl
 pub use energy::{Ledger, RgbSum, Sum};
 pub use executor::{Executor, Sequential};
 pub use mesh::{Element, Mesh, Node, Patch, ReceiverPoint, Root};
-pub use observer::{Control, LevelReport, Observer, StepReport, Stopper};
+pub use observer::{Control, LevelReport, Observer, Stage, StepReport, Stopper};
 pub use refine::{
     Asked, Parts, Probe, Reached, RefineConfig, Refined, Stated, Statement, refine, resume,
 };

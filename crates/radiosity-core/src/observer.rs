@@ -47,10 +47,48 @@ pub enum Control {
 /// once, and stays. The step then counts for nothing; the light before it is the result.
 pub type Stopper = Arc<dyn Fn() -> bool + Send + Sync>;
 
+/// What a solve is busy with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Splitting the scene into elements.
+    Mesh,
+    /// Sampling where the light of each element ends up.
+    Census,
+    /// Choosing shooters, foreseeing what they will still receive, and the books.
+    Select,
+    /// Laying out shooters as cells, and points in the elements near them.
+    Prepare,
+    /// Form factors and occlusion from shooters to receivers.
+    Transfer,
+    /// Adding what arrived to elements and patches.
+    Commit,
+    /// Ambient corrections.
+    Correct,
+    /// What the light may be wrong by: bounds, second estimates, comparison of levels.
+    Statement,
+}
+
+impl Stage {
+    /// All, in the order of the work.
+    pub const ALL: [Self; 8] = [
+        Self::Mesh,
+        Self::Census,
+        Self::Select,
+        Self::Prepare,
+        Self::Transfer,
+        Self::Commit,
+        Self::Correct,
+        Self::Statement,
+    ];
+}
+
 /// Hears of every step. Nothing it does changes the light, but that it may end early.
 pub trait Observer {
     /// Called once after each step: one shot, or as many as the schedule puts together.
     fn step(&mut self, report: &StepReport) -> Control;
+
+    /// Called when work of another kind begins, which lasts until the next call: for a clock.
+    fn stage(&mut self, _: Stage) {}
 
     /// Called once after each level of refinement.
     fn level(&mut self, _: &LevelReport) {}

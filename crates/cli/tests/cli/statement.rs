@@ -40,6 +40,22 @@ fn the_asked_error_is_reached_and_its_parts_add_up() {
 }
 
 #[test]
+fn stages_and_memory_are_in_the_report() {
+    let (report, _) = report(&["--error", "2%"]);
+    let stages = report["seconds"]["stages"].as_object().unwrap();
+    let seconds: Vec<f64> = stages.values().map(|s| s.as_f64().unwrap()).collect();
+    // The box absorbs half of the light: no corrections, and nothing else is left out.
+    assert!(stages.iter().all(|(name, s)| name == "correct" || s.as_f64() > Some(0.0)));
+    // Clocks that run one at a time, with room for the rounding of their sum.
+    assert!(seconds.iter().sum::<f64>() <= report["seconds"]["solve"].as_f64().unwrap() + 1e-9);
+    if cfg!(target_os = "linux") {
+        // The program alone takes megabytes, the box not many.
+        let peak = report["memory"]["peak"].as_u64().unwrap();
+        assert!((1_000_000..200_000_000).contains(&peak), "{peak}");
+    }
+}
+
+#[test]
 fn limits_end_the_work_and_say_so() {
     for (limit, value) in
         [("--max-elements", "1500"), ("--max-memory", "15MB"), ("--max-time", "1ms")]

@@ -16,7 +16,7 @@ use crate::checkpoint::Kept;
 use crate::config::MeshConfig;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
-use crate::observer::{Control, LevelReport, Observer, StepReport, Stopper};
+use crate::observer::{Control, LevelReport, Observer, Stage, StepReport, Stopper};
 use crate::shooting::{Progress, StopReason};
 use keep::Climb;
 pub(crate) use keep::Climbed;
@@ -71,6 +71,7 @@ impl<'a, E: Executor> Ladder<'a, E> {
     }
 
     pub(super) fn climb(&mut self, observer: &mut impl Observer) -> Refined {
+        observer.stage(Stage::Mesh);
         let mut elements = self.first();
         let allowed = observer.elements(elements);
         if allowed < elements {
@@ -86,6 +87,7 @@ impl<'a, E: Executor> Ladder<'a, E> {
         let stopper = observer.stopper();
         loop {
             let reason = level.reason;
+            observer.stage(Stage::Statement);
             let rung = self.place(level);
             let statement = self.statement(&rung);
             observer.level(&LevelReport {
@@ -99,6 +101,7 @@ impl<'a, E: Executor> Ladder<'a, E> {
                 StopReason::Converged | StopReason::ShotLimit => {
                     // It has said what it knows: its room is for the next one.
                     self.done = None;
+                    observer.stage(Stage::Mesh);
                     match self.next_allowed(&rung, statement.as_ref(), stopper.as_ref(), observer) {
                         Ok(more) => match self.finer(more, &rung.level) {
                             Some(mesh) => {
@@ -337,6 +340,10 @@ struct Relay<'a, O: Observer> {
 }
 
 impl<O: Observer> Observer for Relay<'_, O> {
+    fn stage(&mut self, stage: Stage) {
+        self.observer.stage(stage);
+    }
+
     fn step(&mut self, step: &StepReport) -> Control {
         self.observer.step(&self.climb.base.and(step))
     }

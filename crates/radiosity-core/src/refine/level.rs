@@ -14,7 +14,7 @@ use crate::config::ShootingConfig;
 use crate::energy::Ledger;
 use crate::executor::Executor;
 use crate::mesh::{Mesh, ReceiverPoint};
-use crate::observer::{Control, Observer, StepReport};
+use crate::observer::{Control, Observer, Stage, StepReport};
 use crate::reconstruct::Light;
 use crate::shooting::{Course, Progress, Shooting, StopReason};
 
@@ -79,10 +79,12 @@ impl<E: Executor> Setting<'_, E> {
     ) -> Level {
         let (scene, executor) = (self.scene, self.executor);
         let (stopper, exchange) = (observer.stopper(), self.config.exchange);
+        observer.stage(Stage::Census);
         let census =
             Census::take_unless(scene, &mesh, self.bvh, exchange, executor, stopper.as_ref());
         let stopped = census.is_none();
         let census = census.unwrap_or_default();
+        observer.stage(Stage::Select);
         let receivers = self.receivers();
         let (occluder, config) = (self.occluder, self.config);
         let mut shooting =
@@ -96,6 +98,7 @@ impl<E: Executor> Setting<'_, E> {
         } else {
             self.shoot(&mesh, &mut shooting, counted, first, observer)
         };
+        observer.stage(Stage::Statement);
         let shown = shooting.shown();
         let solution = shooting.solution_showing(&shown);
         let whole = Sides::of(scene, &mesh, &solution, counted);
@@ -158,14 +161,17 @@ impl<E: Executor> Setting<'_, E> {
             // A level that was kept may have been past this.
             if !shooting.course().completing {
                 let reason = shooting.run(observer);
+                observer.stage(Stage::Statement);
                 if reason != StopReason::Converged || self.missing(mesh, shooting, counted) <= most
                 {
                     return reason;
                 }
             }
+            observer.stage(Stage::Select);
             if shooting.complete(observer) == Control::Stop {
                 return StopReason::Stopped;
             }
+            observer.stage(Stage::Statement);
             let Course { unshot, tightened, .. } = shooting.course();
             if tightened >= MOST_TIGHTENINGS {
                 return StopReason::Converged;

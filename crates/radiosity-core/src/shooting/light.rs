@@ -16,20 +16,25 @@ use crate::observer::Stopper;
 const RUN: usize = 512;
 
 impl<E: Executor> Shooting<'_, E> {
-    /// Lights every receiver point, every probe and the inside of near elements by each of the
-    /// first `shooters`; `false` if it was stopped on the way: then nothing counts.
-    pub(super) fn transfer(&mut self, shooters: usize, stopper: Option<&Stopper>) -> bool {
-        let (mesh, exchange) = (self.mesh, self.config.exchange);
-        let shooters = &mut self.shooters[..shooters];
+    /// Lays out the first `shooters`: their cells, and the points in elements near them.
+    pub(super) fn prepare(&mut self, shooters: usize) {
         let preparation = Preparation {
-            mesh,
+            mesh: self.mesh,
             census: self.census,
             state: &self.state,
             config: &self.config,
             mean: self.mean,
             receivers: &self.receivers,
         };
+        let shooters = &mut self.shooters[..shooters];
         self.executor.for_each(shooters, |shooter| shooter.prepare(&preparation));
+    }
+
+    /// Lights every receiver point, every probe and the inside of near elements by each of the
+    /// first `shooters`; `false` if it was stopped on the way: then nothing counts.
+    pub(super) fn transfer(&mut self, shooters: usize, stopper: Option<&Stopper>) -> bool {
+        let (mesh, exchange) = (self.mesh, self.config.exchange);
+        let shooters = &mut self.shooters[..shooters];
         let detail = Detail::of(&self.config);
         let mut shots = Vec::with_capacity(shooters.len());
         let mut slots = Vec::with_capacity(shooters.len());

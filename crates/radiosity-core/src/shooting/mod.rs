@@ -34,7 +34,7 @@ use crate::config::{Correction, Exchange, ShootingConfig};
 use crate::energy::{RgbSum, Sum};
 use crate::executor::Executor;
 use crate::mesh::{Mesh, ReceiverPoint};
-use crate::observer::{Control, Observer, StepReport, Stopper};
+use crate::observer::{Control, Observer, Stage, StepReport, Stopper};
 use account::Account;
 use ambient::{Ambient, LOSS_OF_PLAIN, Phase};
 pub use gather::Gathered;
@@ -156,7 +156,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
             if let Some(reason) = self.finished() {
                 return reason;
             }
-            let done = self.step_unless(stopper.as_ref());
+            let done = self.step_unless(stopper.as_ref(), observer);
             if self.tell(done, observer) == Control::Stop {
                 return self.finished().unwrap_or(StopReason::Stopped);
             }
@@ -179,11 +179,12 @@ impl<'a, E: Executor> Shooting<'a, E> {
     /// One step: select, transfer, commit; then, where it pays, an ambient correction. Does
     /// nothing when all is shot.
     pub fn step(&mut self) {
-        self.step_unless(None);
+        self.step_unless(None, &mut ());
     }
 
     /// One step, if nothing stops it: `false` if it was stopped, and nothing changed.
-    fn step_unless(&mut self, stopper: Option<&Stopper>) -> bool {
+    fn step_unless(&mut self, stopper: Option<&Stopper>, observer: &mut impl Observer) -> bool {
+        observer.stage(Stage::Select);
         let (schedule, receivers) = (self.config.schedule, self.receivers.len());
         let completing = self.ambient.as_ref().filter(|a| a.phase == Phase::Completing);
         let mut chosen = completing.map_or_else(Vec::new, |ambient| {
@@ -205,7 +206,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
         if chosen.is_empty() {
             return true;
         }
-        if !self.shoot(&chosen, stopper) {
+        if !self.shoot(&chosen, stopper, observer) {
             return false;
         }
         let unshot = self.unshot_share();
@@ -229,7 +230,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
             if chosen.is_empty() {
                 return Control::Continue;
             }
-            let done = self.shoot(&chosen, stopper.as_ref());
+            let done = self.shoot(&chosen, stopper.as_ref(), observer);
             if self.tell(done, observer) == Control::Stop {
                 return Control::Stop;
             }
@@ -281,7 +282,13 @@ impl<'a, E: Executor> Shooting<'a, E> {
 
     /// Shoots the light of some patches, be it none, and books it; `false` if it was stopped, and
     /// nothing changed.
-    fn shoot(&mut self, patches: &[usize], stopper: Option<&Stopper>) -> bool {
+    fn shoot(
+        &mut self,
+        patches: &[usize],
+        stopper: Option<&Stopper>,
+        observer: &mut impl Observer,
+    ) -> bool {
+        observer.stage(Stage::Select);
         if self.shooters.len() < patches.len() {
             self.shooters.resize_with(patches.len(), Shooter::default);
         }
@@ -292,10 +299,14 @@ impl<'a, E: Executor> Shooting<'a, E> {
         let elements = patches.iter().flat_map(|&p| self.mesh.patches[p].elements.clone());
         let before: Vec<Rgb> = elements.map(|e| self.state.unshot[e as usize]).collect();
         let owed = self.foresee(patches);
+        observer.stage(Stage::Prepare);
+        self.prepare(patches.len());
+        observer.stage(Stage::Transfer);
         if !self.transfer(patches.len(), stopper) {
             self.forget(patches, &before);
             return false;
         }
+        observer.stage(Stage::Select);
         let mut power = RgbSum::default();
         let mut sampled = (!self.census.is_empty()).then(Lost::default);
         for &patch in patches {
@@ -310,7 +321,9 @@ impl<'a, E: Executor> Shooting<'a, E> {
         self.settle(patches, &owed);
         let shooters = &self.shooters[..patches.len()];
         let closure = self.closure.as_deref();
+        observer.stage(Stage::Commit);
         commit::commit(self.mesh, shooters, closure, &mut self.state, self.executor);
+        observer.stage(Stage::Select);
         if let Some(ambient) = &mut self.ambient {
             for shooter in shooters.iter().filter(|s| s.learnt) {
                 let patch = &self.mesh.patches[shooter.patch];
@@ -326,7 +339,9 @@ impl<'a, E: Executor> Shooting<'a, E> {
         self.account.book(rest.value(), sampled);
         self.watch(power.value());
         self.shots += patches.len() as u64;
+        observer.stage(Stage::Correct);
         self.help(patches);
+        observer.stage(Stage::Select);
         true
     }
 }

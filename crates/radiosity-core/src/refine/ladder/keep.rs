@@ -13,7 +13,7 @@ use crate::checkpoint::{Checkpoint, Inconsistent, Loose, Part, Reader, Record, d
 use crate::energy::Ledger;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
-use crate::observer::{Observer, StepReport};
+use crate::observer::{Observer, Stage, StepReport};
 use crate::reconstruct::{self, Light};
 use crate::shooting::{MOST_COUNTED, StopReason};
 
@@ -160,6 +160,7 @@ impl<E: Executor> Ladder<'_, E> {
         self.base = climbed.base;
         let most = &mut self.setting.refining.most_elements;
         *most = climbed.most_elements.clamp(1, (*most).max(1));
+        observer.stage(Stage::Mesh);
         let (before, mesh) = self.setting.regrown(&climbed.grown)?;
         if progress.mesh() != digest(&mesh) {
             return Err(OTHER_MESH);
