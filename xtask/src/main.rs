@@ -38,9 +38,8 @@ enum Task {
     /// Measure error against time on the scenes with a reference, and draw it into
     /// docs/precision.
     Precision(precision::Arguments),
-    /// Measure how the run time falls with the number of threads, and draw it into
-    /// docs/performance.
-    Bench(bench::Arguments),
+    /// Measure a matrix of solves, check them, and make a report into docs/bench.
+    Bench(Box<bench::Arguments>),
     /// Measure estimators and sweeps, and draw the figures of docs/numerics.md.
     Numerics(numerics::Arguments),
 }

@@ -1,135 +1,315 @@
-//! `cargo xtask bench`: how the run time of a solve falls with the number of threads.
+//! `cargo xtask bench`: a matrix of solves, measured, checked, and made into a report.
 //!
-//! Every scene is solved with every number of threads by the release program as a user starts
-//! it, and every solution must be the same to the last byte. What was measured is kept as
-//! `docs/performance/scaling.json`; the diagrams beside it and the tables of
-//! `docs/performance/scaling.md` are drawn from that alone.
+//! Every run is a process of its own that times itself, started as a user starts it; its time
+//! counts only if its result is right. Runs are kept as they are made, a line each, in
+//! `docs/bench/<date>-<host>/records.jsonl`; charts, page and `report.html` beside it are drawn from
+//! that alone. What is interrupted goes on where it was.
 
+mod against;
 mod amdahl;
-mod diagram;
-mod measurement;
+mod cell;
+mod chart;
+mod check;
+mod fit;
+mod group;
+mod host;
+mod html;
+mod markdown;
+mod matrix;
 mod others;
-mod page;
+mod record;
 mod rounds;
 mod scene;
+mod section;
 mod threads;
 
 #[cfg(test)]
 mod sample;
 
 use std::fs;
+use std::io::Write;
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
+use crate::precision::numbers::percent;
 use crate::precision::{self, Machine, Program};
-use measurement::Measurement;
-use rounds::Plan;
+use cell::{Accel, Cell, Method};
+use host::Host;
+use matrix::{Asked, Study};
+use record::{Book, Outcome};
 use scene::Scene;
 use threads::Threads;
 
-/// Where the measurement, its diagrams and the page that shows them are kept.
-const FOLDER: &str = "docs/performance";
-const DATA: &str = "scaling.json";
-const PAGE: &str = "scaling.md";
+/// Where records and reports are kept.
+const FOLDER: &str = "docs/bench";
+
+/// Where glances go: `--quick`, and runs that are only held against others.
+const PASSING: &str = "out/bench";
+
+/// The files that are drawn beside charts.
+const PAGE: &str = "README.md";
+const REPORT: &str = "report.html";
 
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
     /// Numbers of threads, both ends of a range included: `1..24`, `1,2,4`; 1 is always among
-    /// them [default: 1 to the machine's cores]
+    /// them. Studies of other things take the most that has a core for each [default: 1 to the
+    /// machine's cores]
     #[arg(long, value_name = "LIST")]
     threads: Option<Threads>,
 
-    /// How loops are shared out, passed on to the program: `static,dynamic:1,guided:1,tasks`
-    /// [default: as the program does]
-    #[arg(long = "loop", value_name = "LIST", value_delimiter = ',')]
-    loops: Vec<String>,
+    /// Only these questions
+    #[arg(long = "study", value_name = "LIST", value_enum, value_delimiter = ',')]
+    studies: Vec<Study>,
 
-    /// How shooters follow each other, passed on to the program: `single,multi:4`
+    /// Only these scenes
+    #[arg(long, value_name = "LIST", value_enum, value_delimiter = ',')]
+    scenes: Vec<Scene>,
+
+    /// Elements of fixed meshes, about, in place of those of each study
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    elements: Vec<NonZero<usize>>,
+
+    /// Ways to find the light, in place of those of each study
+    #[arg(long, value_name = "LIST", value_enum, value_delimiter = ',')]
+    methods: Vec<Method>,
+
+    /// How shooters follow each other, passed on to the program: `auto,single,multi:4`
     /// [default: as the program does]
     #[arg(long = "schedule", value_name = "LIST", value_delimiter = ',')]
     schedules: Vec<String>,
 
-    /// Only these
-    #[arg(long = "scene", value_name = "NAME", value_enum, value_delimiter = ',')]
-    scenes: Vec<Scene>,
+    /// How loops are shared out, passed on to the program: `tasks,static,dynamic:1,guided:1`
+    /// [default: these in the study of threads, elsewhere as the program does]
+    #[arg(long = "loop", value_name = "LIST", value_delimiter = ',')]
+    loops: Vec<String>,
 
-    /// Rounds: runs of each configuration
+    /// What finds occluders [default: both in the study of occluders, elsewhere as the program
+    /// does]
+    #[arg(long, value_name = "LIST", value_enum, value_delimiter = ',')]
+    accel: Vec<Accel>,
+
+    /// Runs of each cell
     #[arg(long, value_name = "N", default_value = "5")]
-    runs: NonZero<usize>,
+    repeat: NonZero<usize>,
 
-    /// Elements of each mesh, about
-    #[arg(long, value_name = "N", default_value = "20000")]
-    elements: NonZero<usize>,
+    /// Two scenes with coarse meshes, in less than two minutes, into out/bench
+    #[arg(long)]
+    quick: bool,
 
-    /// Run nothing: draw again what the folder holds
-    #[arg(
-        long,
-        conflicts_with_all = ["threads", "loops", "schedules", "scenes", "runs", "elements"]
-    )]
+    /// Run nothing: list the cells, a command line each
+    #[arg(long)]
+    list: bool,
+
+    /// Run nothing: draw again what the folder of --out holds, or every folder of docs/bench
+    #[arg(long, conflicts_with_all = ["list", "quick", "against", "fresh", "threads"])]
     draw: bool,
 
-    /// Write there [default: docs/performance]
+    /// Keep records there [default: docs/bench/<date>-<host>]
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
+
+    /// Call this machine so [default: as it calls itself]
+    #[arg(long, value_name = "NAME")]
+    host: Option<String>,
+
+    /// Leave out the records that the folder holds, instead of going on with them
+    #[arg(long)]
+    fresh: bool,
+
+    /// Say what became faster or slower than in these records, a folder; without other flags, runs
+    /// the cells that they have. Fails where something became slower
+    #[arg(long, value_name = "RECORD")]
+    against: Option<PathBuf>,
+
+    /// What --against lets pass, as 0.1 or 10%, beyond the noise
+    #[arg(long, value_name = "SHARE", default_value = "5%", value_parser = share)]
+    threshold: f64,
 }
 
-/// Measures and draws, or draws alone.
+/// Lists, draws, or measures.
 pub(crate) fn run(root: &Path, arguments: &Arguments) -> Result<(), String> {
-    let folder = arguments.out.clone().unwrap_or_else(|| root.join(FOLDER));
-    if !arguments.draw {
-        measure(root, arguments)?.write(&folder.join(DATA))?;
+    if arguments.draw {
+        return draw_kept(root, arguments.out.as_deref());
     }
-    let path = folder.join(DATA);
-    let measurement = Measurement::read(&path)?;
-    for (name, text) in drawn(&folder, &measurement)? {
-        let path = folder.join(name);
-        precision::write(&path, &text)?;
-        println!("{}: {} bytes", path.display(), text.len());
+    let before = arguments.against.as_deref().map(Book::read).transpose()?;
+    let machine = Machine::this();
+    let cells = match &before {
+        Some(before) if arguments.asks_for_nothing() => cells_of(before),
+        _ => arguments.asked().cells(root, machine.cores),
+    };
+    say_threads(&cells, &machine);
+    let rounds = arguments.repeat.get();
+    println!("{} cells, {rounds} runs of each", cells.len());
+    if arguments.list {
+        let mut out = std::io::stdout().lock();
+        for cell in &cells {
+            let (scene, settings) = (cell.scene.path(root), cell.settings().join(" "));
+            let at_once = if cell.programs > 1 { " (at once)" } else { "" };
+            let line = format!("{} × radiosity solve {scene} {settings}{at_once}", cell.programs);
+            // Who has read enough closes the pipe.
+            if writeln!(out, "{line}").is_err() {
+                break;
+            }
+        }
+        return Ok(());
     }
-    Ok(())
+    let program = Program::build(root, "bench")?;
+    let host = Host::this(root, &program, arguments.host.as_deref())?;
+    let folder = arguments.folder(root, &host);
+    let mut book = Book::open(&folder, host, arguments.fresh)?;
+    println!("records: {}, {} runs there already", folder.display(), book.records.len());
+    rounds::run(&mut book, &program, root, &cells, rounds)?;
+    draw(&folder, &book)?;
+    if let Some(before) = &before {
+        let compared = against::compare(before, &book, arguments.threshold);
+        println!("{}", compared.text);
+        if compared.regressions > 0 {
+            return Err(format!("slower by more than {}", percent(arguments.threshold)));
+        }
+    }
+    let refused = book.records.iter().filter(|r| matches!(r.outcome, Outcome::Refused(_))).count();
+    if refused > 0 { Err(format!("{refused} runs do not count")) } else { Ok(()) }
 }
 
-/// Runs everything that is asked for.
-fn measure(root: &Path, arguments: &Arguments) -> Result<Measurement, String> {
-    let machine = Machine::this();
-    let threads = arguments.threads.clone().unwrap_or_else(|| Threads::up_to(machine.cores));
-    println!("threads: {threads}, of {} cores of {}", machine.cores, machine.cpu);
-    let elements = arguments.elements.get();
-    let plan = Plan {
-        elements,
-        modes: rounds::modes(&arguments.loops, &arguments.schedules),
-        threads,
-        runs: arguments.runs.get(),
-    };
-    let program = Program::build(root, "bench")?;
-    let scenes = arguments.scenes().map(|scene| plan.measure(&program, root, scene, machine.cores));
-    Ok(Measurement { scenes: scenes.collect::<Result<_, _>>()?, machine, elements })
+/// What an earlier matrix was made of.
+fn cells_of(book: &Book) -> Vec<Cell> {
+    let mut cells: Vec<Cell> = Vec::new();
+    for record in &book.records {
+        if !cells.contains(&record.cell) {
+            cells.push(record.cell.clone());
+        }
+    }
+    cells
+}
+
+/// Says which numbers of threads there are, and which of them have to share cores.
+fn say_threads(cells: &[Cell], machine: &Machine) {
+    let mut threads: Vec<usize> = cells.iter().map(|cell| cell.threads).collect();
+    threads.sort_unstable();
+    threads.dedup();
+    let words =
+        |threads: &[usize]| threads.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+    println!("threads: {}, of {} cores of {}", words(&threads), machine.cores, machine.cpu);
+    threads.retain(|threads| *threads > machine.cores);
+    if !threads.is_empty() {
+        println!(
+            "warning: {} threads have no core for each: they show whether threads get into each \
+             other's way, not how the program scales",
+            words(&threads)
+        );
+    }
 }
 
 impl Arguments {
-    /// What is asked for, once each; all where nothing is.
-    fn scenes(&self) -> impl Iterator<Item = Scene> {
-        let asked = |s: &Scene| self.scenes.is_empty() || self.scenes.contains(s);
-        Scene::ALL.into_iter().filter(asked)
+    /// Whether the matrix is left to the records that are compared with.
+    fn asks_for_nothing(&self) -> bool {
+        let Asked { studies, scenes, elements, methods, schedules, loops, accels, threads, quick } =
+            self.asked();
+        studies.is_empty()
+            && scenes.is_empty()
+            && elements.is_empty()
+            && methods.is_empty()
+            && schedules.is_empty()
+            && loops.is_empty()
+            && accels.is_empty()
+            && threads.is_none()
+            && !quick
+    }
+
+    fn asked(&self) -> Asked {
+        Asked {
+            studies: self.studies.clone(),
+            scenes: self.scenes.clone(),
+            elements: self.elements.iter().map(|n| n.get()).collect(),
+            methods: self.methods.clone(),
+            schedules: self.schedules.clone(),
+            loops: self.loops.clone(),
+            accels: self.accel.clone(),
+            threads: self.threads.clone(),
+            quick: self.quick,
+        }
+    }
+
+    /// Where records are kept. A folder for each program where they are held against others: those
+    /// of one day are of several.
+    fn folder(&self, root: &Path, host: &Host) -> PathBuf {
+        match &self.out {
+            Some(out) => out.clone(),
+            None if self.quick || self.against.is_some() => {
+                root.join(PASSING).join(format!("{}-{}", host.revision, host.program))
+            }
+            None => root.join(FOLDER).join(host.folder()),
+        }
     }
 }
 
-/// The files that follow from a measurement: name in its folder, and text.
-fn drawn(folder: &Path, measurement: &Measurement) -> Result<Vec<(String, String)>, String> {
-    let mut files = Vec::new();
-    for solved in &measurement.scenes {
-        let figure = diagram::of(solved, &measurement.machine);
-        files.push((solved.scene.diagram_name(), figure.svg()?));
-    }
-    let path = folder.join(PAGE);
-    let text = if path.exists() {
-        fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?
-    } else {
-        page::EMPTY.to_owned()
+/// Draws what a folder holds, or what each folder of docs/bench does.
+fn draw_kept(root: &Path, out: Option<&Path>) -> Result<(), String> {
+    let folders = match out {
+        Some(folder) => vec![folder.to_owned()],
+        None => kept(root)?,
     };
-    let page = page::renewed(&text, measurement).map_err(|e| format!("{}: {e}", path.display()))?;
-    files.push((PAGE.to_owned(), page));
+    folders.iter().try_for_each(|folder| draw(folder, &Book::read(folder)?))
+}
+
+/// The folders of docs/bench.
+fn kept(root: &Path) -> Result<Vec<PathBuf>, String> {
+    let folder = root.join(FOLDER);
+    let failed = |e: std::io::Error| format!("{}: {e}", folder.display());
+    let mut folders = Vec::new();
+    for entry in fs::read_dir(&folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.join(record::HOST).exists() {
+            folders.push(path);
+        }
+    }
+    folders.sort();
+    Ok(folders)
+}
+
+/// Writes everything that follows from the records, and takes away charts that no longer do.
+fn draw(folder: &Path, book: &Book) -> Result<(), String> {
+    let files = drawn(book)?;
+    let failed = |e: std::io::Error| format!("{}: {e}", folder.display());
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        let is_chart = path.extension().is_some_and(|extension| extension == "svg");
+        let current = files.iter().any(|(name, _)| path.file_name() == Some(name.as_ref()));
+        if is_chart && !current {
+            fs::remove_file(&path).map_err(failed)?;
+        }
+    }
+    for (name, text) in &files {
+        precision::write(&folder.join(name), text)?;
+    }
+    println!("{}: {} files", folder.join(REPORT).display(), files.len());
+    Ok(())
+}
+
+/// The files that follow from records: name in their folder, and text.
+fn drawn(book: &Book) -> Result<Vec<(String, String)>, String> {
+    let title = format!("Benchmarks on {}, {}", book.host.host, book.host.date);
+    let head = section::head(&book.host, &book.records);
+    let sections = section::all(&book.host, &book.records)?;
+    let mut files = vec![
+        (PAGE.to_owned(), markdown::page(&title, &head, &sections)),
+        (REPORT.to_owned(), html::page(&title, &head, &sections)),
+    ];
+    let charts = sections.into_iter().flat_map(|section| section.charts);
+    files.extend(charts.map(|chart| (chart.file, chart.svg)));
     Ok(files)
+}
+
+/// A share from 0 on, as `0.05` or `5%`.
+fn share(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    let share = number.trim().parse::<f64>().ok().map(|number| number * unit);
+    let share = share.filter(|share| share.is_finite() && *share >= 0.0);
+    share.ok_or_else(|| format!("`{text}`: expected a share as 0.05 or 5%"))
 }
 
 #[cfg(test)]
@@ -150,52 +330,67 @@ mod tests {
 
     #[test]
     fn lists_are_split_and_ranges_resolved() {
-        let line = "--threads 1..3 --loop static,dynamic:1 --schedule multi:4 --scene blocks,room";
-        let arguments = parsed(line).unwrap();
-        assert_eq!(arguments.threads.as_ref().unwrap().to_string(), "1, 2, 3");
-        assert_eq!(arguments.loops, ["static", "dynamic:1"]);
-        assert_eq!(arguments.schedules, ["multi:4"]);
-        assert_eq!(arguments.scenes().collect::<Vec<_>>(), [Scene::Room, Scene::Blocks]);
-        let bare = parsed("").unwrap();
-        assert_eq!((bare.runs.get(), bare.elements.get()), (5, 20_000));
-        assert_eq!(bare.scenes().count(), Scene::ALL.len());
+        let line = "--threads 1..3 --loop static,dynamic:1 --schedule multi:4 --scenes blocks,room \
+                    --elements 500,1000 --methods plain,mesh --accel octree --study threads";
+        let asked = parsed(line).unwrap().asked();
+        assert_eq!(asked.threads.as_ref().unwrap().to_string(), "1, 2, 3");
+        assert_eq!(asked.loops, ["static", "dynamic:1"]);
+        assert_eq!(asked.schedules, ["multi:4"]);
+        assert_eq!(asked.scenes, [Scene::Blocks, Scene::Room]);
+        assert_eq!(asked.elements, [500, 1000]);
+        assert_eq!(asked.methods, [Method::Plain, Method::Mesh]);
+        assert_eq!((asked.accels, asked.studies), (vec![Accel::Octree], vec![Study::Threads]));
     }
 
     #[test]
     fn what_cannot_be_run_is_refused() {
-        for line in ["--threads 0", "--threads 4..1", "--runs 0", "--elements 0", "--scene sofa"] {
+        for line in [
+            "--threads 0",
+            "--threads 4..1",
+            "--repeat 0",
+            "--elements 0",
+            "--scenes sofa",
+            "--threshold -1",
+            "--threshold x%",
+            "--draw --quick",
+        ] {
             assert!(parsed(line).is_err(), "{line}");
         }
-        for flag in ["--threads 2", "--loop static", "--scene room", "--runs 3"] {
-            assert!(parsed(&format!("--draw {flag}")).is_err(), "{flag}");
-        }
-        assert!(parsed("--draw --out some/folder").unwrap().draw);
+        assert_eq!(parsed("--threshold 10%").unwrap().threshold, 0.1);
     }
 
-    /// The committed diagrams and tables follow from the committed measurement, and none is left
-    /// over from an earlier one.
     #[test]
-    fn diagrams_and_tables_are_current() {
-        let folder = crate::root().join(FOLDER);
-        let measurement = Measurement::read(&folder.join(DATA)).unwrap();
-        let files = drawn(&folder, &measurement).unwrap();
-        for (name, text) in &files {
-            let found = fs::read_to_string(folder.join(name)).unwrap_or_default();
-            assert!(found == *text, "{name}: run `cargo xtask bench --draw`");
-        }
-        for scene in Scene::ALL {
-            let name = scene.diagram_name();
-            let expected = files.iter().any(|(drawn, _)| *drawn == name);
-            assert_eq!(folder.join(&name).exists(), expected, "{name}");
+    fn records_to_compare_with_say_what_to_run() {
+        assert!(parsed("--against a --repeat 3 --threshold 0.1").unwrap().asks_for_nothing());
+        for axis in ["--quick", "--threads 2", "--scenes room", "--accel bvh", "--study growth"] {
+            assert!(!parsed(&format!("--against a {axis}")).unwrap().asks_for_nothing(), "{axis}");
         }
     }
 
-    /// Elsewhere than in docs there is no page yet.
     #[test]
-    fn a_folder_without_a_page_gets_one() {
-        let files = drawn(Path::new("/nonexistent"), &sample::measurement()).unwrap();
-        let (name, page) = files.last().unwrap();
-        assert_eq!(name, PAGE);
-        assert!(page.contains("### Room") && page.contains("serial share"), "{page}");
+    fn glances_lie_apart() {
+        let (root, host) = (Path::new("/r"), sample::host());
+        let folder = |line: &str| parsed(line).unwrap().folder(root, &host);
+        assert_eq!(folder(""), Path::new("/r/docs/bench/2026-01-31-some-host"));
+        for line in ["--quick", "--against a"] {
+            assert_eq!(folder(line), Path::new("/r/out/bench/0123abc-89abcdef"), "{line}");
+        }
+        assert_eq!(folder("--quick --out here"), Path::new("here"));
+    }
+
+    /// The committed reports follow from the committed records, and none is left over from earlier
+    /// ones.
+    #[test]
+    fn reports_are_current() {
+        for folder in kept(&crate::root()).unwrap() {
+            let files = drawn(&Book::read(&folder).unwrap()).unwrap();
+            for (name, text) in &files {
+                let found = fs::read_to_string(folder.join(name)).unwrap_or_default();
+                assert!(found == *text, "{name}: run `cargo xtask bench --draw`");
+            }
+            // Those drawn, the list and the machine.
+            let there = fs::read_dir(&folder).unwrap().count();
+            assert_eq!(there, files.len() + 2, "{}", folder.display());
+        }
     }
 }

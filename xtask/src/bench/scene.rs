@@ -5,8 +5,10 @@ use std::path::Path;
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
+use crate::precision::Subject;
+
 /// A scene that lies in the folder `shared` beside the checkout, or else among the bundled ones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Scene {
     Room,
@@ -40,16 +42,25 @@ impl Scene {
         }
     }
 
-    /// The file of its diagram.
-    pub(super) fn diagram_name(self) -> String {
-        format!("scaling-{}.svg", self.name())
-    }
-
     /// Its path from the root: the shared file where it is there.
     pub(super) fn path(self, root: &Path) -> String {
         let extension = if self == Self::Cornell { "obj" } else { "tri" };
         let [shared, bundled] = FOLDERS.map(|f| format!("{f}/{}.{extension}", self.name()));
         if root.join(&shared).exists() { shared } else { bundled }
+    }
+
+    /// The path of its reference from the root, where scene and reference are there: bundled scenes
+    /// are others.
+    pub(super) fn reference(self, root: &Path) -> Option<String> {
+        let subject = match self {
+            Self::Room => Subject::Room,
+            Self::Blocks => Subject::Blocks,
+            Self::Cornell => Subject::Cornell,
+            Self::Church => return None,
+        };
+        let paths = [subject.scene(), subject.reference()];
+        let there = paths.iter().all(|path| root.join(path).exists());
+        there.then(|| subject.reference())
     }
 }
 
@@ -71,6 +82,7 @@ mod tests {
         for scene in Scene::ALL {
             let path = scene.path(Path::new("/nonexistent/checkout"));
             assert!(path.starts_with("scenes/") && root.join(&path).exists(), "{path}");
+            assert_eq!(scene.reference(Path::new("/nonexistent/checkout")), None);
         }
     }
 }

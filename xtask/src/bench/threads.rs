@@ -12,11 +12,6 @@ const MOST: usize = 4096;
 pub(super) struct Threads(Vec<usize>);
 
 impl Threads {
-    /// 1, 2, … `most`.
-    pub(super) fn up_to(most: usize) -> Self {
-        Self::of((1..=most).collect())
-    }
-
     fn of(mut numbers: Vec<usize>) -> Self {
         numbers.push(1);
         numbers.sort_unstable();
@@ -78,8 +73,7 @@ mod tests {
     #[test]
     fn one_thread_is_always_there_and_nothing_twice() {
         assert_eq!(parsed("8,2..4,4,2"), Ok(vec![1, 2, 3, 4, 8]));
-        assert_eq!(Threads::up_to(3), "2,3".parse().unwrap());
-        assert_eq!(Threads::up_to(3).to_string(), "1, 2, 3");
+        assert_eq!("2,3".parse::<Threads>().unwrap().to_string(), "1, 2, 3");
     }
 
     #[test]

@@ -4,10 +4,12 @@
 //! machine's fonts.
 
 mod axis;
+mod bars;
 mod draw;
 mod look;
 
 pub(crate) use axis::{Axis, Labels};
+pub(crate) use bars::{Bar, Bars, Part};
 pub(crate) use look::{Color, Look, Marker, Stroke, color};
 
 /// A diagram with two logarithmic axes and its legend beside it.

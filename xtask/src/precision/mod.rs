@@ -20,10 +20,10 @@ pub(crate) mod sample;
 use std::fs;
 use std::path::Path;
 
-pub(crate) use measurement::{Errors, Machine, Measurement, Stated};
+pub(crate) use measurement::{Errors, Machine, Measurement, Stated, Work};
 use plan::Plan;
-pub(crate) use program::Program;
-use subject::Subject;
+pub(crate) use program::{Program, Said};
+pub(crate) use subject::Subject;
 
 /// Where measurements and diagrams are kept, and the page that shows them.
 const FOLDER: &str = "docs/precision";

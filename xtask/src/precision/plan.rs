@@ -74,7 +74,7 @@ impl Plan {
         let (mut reference_error, mut used_threads) = (0.0, 0);
         for job in self.jobs() {
             let said = self.solve(program, subject, job, threads)?;
-            let compared = program.compare(subject)?;
+            let compared = program.compare(&subject.reference())?;
             println!(
                 "{}: {} to {}: {}, E1 {}",
                 subject.name(),

@@ -1,5 +1,6 @@
 //! The release program, started as a user starts it, and what it says.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,7 +9,6 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::measurement::{Errors, Stated, Work};
-use super::subject::Subject;
 
 /// The version of the program's report that is read here; docs/report.md says what it holds.
 const SCHEMA: u64 = 2;
@@ -26,16 +26,22 @@ pub(crate) struct Said {
     pub(crate) threads: usize,
     /// Building the occluder and solving.
     pub(crate) seconds: f64,
+    /// The same, by what it was for; with reading and writing, which do not count.
+    pub(crate) stages: BTreeMap<String, f64>,
     pub(crate) work: Work,
-    pub(super) stated: Option<Stated>,
+    pub(crate) stated: Option<Stated>,
+    /// By how much the energy ledger does not add up, relative.
+    pub(crate) imbalance: f64,
+    /// Most memory, bytes; nothing where the system does not tell.
+    pub(crate) peak: Option<u64>,
 }
 
 /// What `radiosity compare` says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Compared {
-    pub(super) errors: Errors,
+pub(crate) struct Compared {
+    pub(crate) errors: Errors,
     /// The reference's own standard error in the measure of E1.
-    pub(super) reference: f64,
+    pub(crate) reference: f64,
 }
 
 impl Program {
@@ -65,16 +71,20 @@ impl Program {
         self.solve_to("solve", scene, settings)
     }
 
-    /// Solves a scene by so many programs at once; none of the solutions is kept.
+    /// Solves a scene by so many programs at once: what each says, and its solution.
     pub(crate) fn solve_at_once(
         &self,
         programs: usize,
         scene: &str,
         settings: &[String],
-    ) -> Result<Vec<Said>, String> {
+    ) -> Result<Vec<(Said, String)>, String> {
         std::thread::scope(|scope| {
             let run = |i: usize| {
-                scope.spawn(move || self.solve_to(&format!("copy-{i}"), scene, settings))
+                scope.spawn(move || {
+                    let name = format!("copy-{i}");
+                    let said = self.solve_to(&name, scene, settings)?;
+                    Ok((said, self.solution_of(&name)?))
+                })
             };
             let running: Vec<_> = (0..programs).map(run).collect();
             let said = running.into_iter().map(|thread| {
@@ -85,8 +95,8 @@ impl Program {
     }
 
     fn solve_to(&self, name: &str, scene: &str, settings: &[String]) -> Result<Said, String> {
-        let [solution, report] =
-            ["csv", "json"].map(|end| self.scratch.join(format!("{name}.{end}")));
+        let solution = self.solution_path(name);
+        let report = solution.with_extension("json");
         let mut command = Command::new(&self.path);
         command.arg("solve").arg(scene).args(settings);
         command.arg("-o").arg(solution).arg("--report").arg(&report);
@@ -96,21 +106,30 @@ impl Program {
         said(&text).map_err(failed)
     }
 
-    /// Holds the last solution against the subject's reference.
-    pub(super) fn compare(&self, subject: Subject) -> Result<Compared, String> {
+    /// Holds the last solution against a reference, given by its path from the root.
+    pub(crate) fn compare(&self, reference: &str) -> Result<Compared, String> {
         let mut command = Command::new(&self.path);
-        command.arg("compare").arg(self.solution_path()).arg(subject.reference());
+        command.arg("compare").arg(self.solution_path("solve")).arg(reference);
         compared(&self.output(command)?)
     }
 
     /// The text of the last solution.
     pub(crate) fn solution(&self) -> Result<String, String> {
-        let path = self.solution_path();
+        self.solution_of("solve")
+    }
+
+    fn solution_of(&self, name: &str) -> Result<String, String> {
+        let path = self.solution_path(name);
         fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))
     }
 
-    fn solution_path(&self) -> PathBuf {
-        self.scratch.join("solve.csv")
+    fn solution_path(&self, name: &str) -> PathBuf {
+        self.scratch.join(name).with_extension("csv")
+    }
+
+    /// The program's own bytes: other bytes are another program, whatever its revision says.
+    pub(crate) fn bytes(&self) -> Result<Vec<u8>, String> {
+        fs::read(&self.path).map_err(|e| format!("{}: {e}", self.path.display()))
     }
 
     /// Runs to the end and gives what was printed.
@@ -141,11 +160,18 @@ fn said(text: &str) -> Result<Said, String> {
     if report["schema"] != SCHEMA {
         return Err(format!("schema is {}, expected {SCHEMA}", report["schema"]));
     }
-    let Report { settings, mesh, solve, error, seconds } =
+    let Report { settings, mesh, solve, error, energy, seconds, memory } =
         serde_json::from_value(report).map_err(|e| e.to_string())?;
+    let Seconds { read, occluder, solve: solving, mut stages, output } = seconds;
+    let rest = (solving - stages.values().sum::<f64>()).max(0.0);
+    let around = [("read", read), ("occluder", occluder), ("other", rest), ("output", output)];
+    stages.extend(around.map(|(name, seconds)| (name.to_owned(), seconds)));
     Ok(Said {
         threads: settings.threads,
-        seconds: seconds.occluder + seconds.solve,
+        seconds: occluder + solving,
+        stages,
+        imbalance: energy.imbalance,
+        peak: memory.peak,
         work: Work {
             elements: mesh.elements,
             shots: solve.shots,
@@ -165,7 +191,9 @@ struct Report {
     mesh: Mesh,
     solve: SolveFacts,
     error: Option<ErrorFacts>,
+    energy: Energy,
     seconds: Seconds,
+    memory: Memory,
 }
 
 #[derive(Deserialize)]
@@ -199,9 +227,22 @@ struct Total {
 }
 
 #[derive(Deserialize)]
+struct Energy {
+    imbalance: f64,
+}
+
+#[derive(Deserialize)]
 struct Seconds {
+    read: f64,
     occluder: f64,
     solve: f64,
+    stages: BTreeMap<String, f64>,
+    output: f64,
+}
+
+#[derive(Deserialize)]
+struct Memory {
+    peak: Option<u64>,
 }
 
 /// Reads the table of `compare`: the last column is the worst channel.
@@ -239,7 +280,10 @@ mod tests {
             "solve": { "unshot": 0.0016, "shots": 1651, "rays": 4_791_978,
                        "form_factors": 4_791_979, "limit": null, "stopped": "converged" },
             "error": { "total": 0.0317, "mesh": 0.0236, "largest": { "total": null } },
-            "seconds": { "read": 9.0, "occluder": 0.25, "solve": 1.0, "output": 9.0 },
+            "energy": { "imbalance": 1e-15 },
+            "seconds": { "read": 9.0, "occluder": 0.25, "solve": 1.0, "output": 9.0,
+                         "stages": { "mesh": 0.25, "transfer": 0.5 } },
+            "memory": { "peak": 12_000_000 },
         })
     }
 
@@ -248,6 +292,18 @@ mod tests {
         let said = said(&report().to_string()).unwrap();
         // Neither reading nor writing counts.
         assert_eq!((said.threads, said.seconds), (2, 1.25));
+        assert_eq!((said.imbalance, said.peak), (1e-15, Some(12_000_000)));
+        // What no stage of the solve took is there, too.
+        let stages: Vec<_> = said.stages.iter().map(|(name, s)| (name.as_str(), *s)).collect();
+        let expected = [
+            ("mesh", 0.25),
+            ("occluder", 0.25),
+            ("other", 0.25),
+            ("output", 9.0),
+            ("read", 9.0),
+            ("transfer", 0.5),
+        ];
+        assert_eq!(stages, expected);
         assert_eq!(said.stated, Some(Stated { e1: Some(0.0317), einf: None }));
         let work = said.work;
         let counts = (work.elements, work.shots, work.segments, work.form_factors);

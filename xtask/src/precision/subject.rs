@@ -50,7 +50,7 @@ impl Subject {
     }
 
     /// The scene's path from the root.
-    pub(super) fn scene(self) -> String {
+    pub(crate) fn scene(self) -> String {
         let file = match self {
             Self::Room | Self::Paired => "room.tri",
             Self::Blocks => "blocks.tri",
@@ -60,7 +60,7 @@ impl Subject {
     }
 
     /// The reference's path from the root.
-    pub(super) fn reference(self) -> String {
+    pub(crate) fn reference(self) -> String {
         format!("{SHARED}/reference/{}", self.reference_name())
     }
 
