@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "xtask is a terminal program")]
 
 mod bench;
+mod built;
 mod ci;
 mod figure;
 mod numerics;
