@@ -6,7 +6,7 @@ use std::process::Command;
 use clap::ValueEnum;
 use serde_json::Value;
 
-use crate::{scenes, tidy};
+use crate::{instructions, scenes, tidy};
 
 /// One job of the pipeline.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -25,6 +25,8 @@ pub(crate) enum Job {
     Doc,
     /// Each feature compiles alone, and each crate without any.
     Features,
+    /// No kernel takes more instructions than its baseline; skipped without valgrind.
+    Instructions,
 }
 
 /// Runs one job, or all of them in the order above: the quick ones first.
@@ -45,6 +47,7 @@ fn run_job(root: &Path, job: Job) -> Result<(), String> {
             let each = |arguments: String| cargo(root, &arguments);
             feature_checks(&metadata(root)?).into_iter().try_for_each(each)
         }
+        Job::Instructions => instructions::check(root),
     }
 }
 

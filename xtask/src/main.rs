@@ -3,8 +3,10 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "xtask is a terminal program")]
 
 mod bench;
+mod built;
 mod ci;
 mod figure;
+mod instructions;
 mod numerics;
 mod precision;
 mod scenes;
@@ -42,6 +44,9 @@ enum Task {
     Bench(Box<bench::Arguments>),
     /// Measure estimators and sweeps, and draw the figures of docs/numerics.md.
     Numerics(numerics::Arguments),
+    /// Count the instructions of every kernel with valgrind, and compare them with the baseline of
+    /// docs/performance.
+    Instructions(instructions::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -54,6 +59,7 @@ fn main() -> ExitCode {
         Task::Precision(arguments) => precision::run(&root, &arguments),
         Task::Bench(arguments) => bench::run(&root, &arguments),
         Task::Numerics(arguments) => numerics::run(&root, &arguments),
+        Task::Instructions(arguments) => instructions::run(&root, &arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

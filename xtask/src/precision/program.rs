@@ -9,6 +9,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::measurement::{Errors, Stated, Work};
+use crate::built;
 
 /// The version of the program's report that is read here; docs/report.md says what it holds.
 const SCHEMA: u64 = 2;
@@ -48,18 +49,7 @@ impl Program {
     /// Builds the program with optimisation. What it writes goes into a folder of this name
     /// beside it, so that two tasks may run at once.
     pub(crate) fn build(root: &Path, scratch: &str) -> Result<Self, String> {
-        let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
-        let words = "build --release --package cli --message-format json-render-diagnostics";
-        println!("$ cargo {words}");
-        let mut command = Command::new(cargo);
-        // The messages are read, what cargo says to the user goes to the terminal.
-        command.current_dir(root).args(words.split(' ')).stderr(std::process::Stdio::inherit());
-        let built = command.output().map_err(|e| format!("cargo {words}: {e}"))?;
-        if !built.status.success() {
-            return Err(format!("failed: cargo {words}"));
-        }
-        let path = executable(&String::from_utf8_lossy(&built.stdout))
-            .ok_or_else(|| format!("cargo {words}: names no program `radiosity`"))?;
+        let path = built::program(root, "cli", "radiosity")?;
         let scratch = path.with_file_name(scratch);
         fs::create_dir_all(&scratch).map_err(|e| format!("{}: {e}", scratch.display()))?;
         Ok(Self { root: root.to_path_buf(), path, scratch })
@@ -142,16 +132,6 @@ impl Program {
         let last = String::from_utf8_lossy(&output.stderr).trim_end().to_owned();
         Err(failed(format!("{}: {last}", output.status)))
     }
-}
-
-/// The program's path among cargo's messages, a JSON object a line.
-fn executable(messages: &str) -> Option<PathBuf> {
-    messages.lines().find_map(|line| {
-        let message: Value = serde_json::from_str(line).ok()?;
-        let is_it = message["target"]["name"] == "radiosity";
-        is_it.then_some(())?;
-        message["executable"].as_str().map(PathBuf::from)
-    })
 }
 
 /// Reads a report.
@@ -261,16 +241,6 @@ fn compared(table: &str) -> Result<Compared, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_program_is_found_among_the_messages() {
-        let messages = "\
-            {\"reason\":\"compiler-artifact\",\"target\":{\"name\":\"glam\"},\"executable\":null}\n\
-            not JSON\n\
-            {\"target\":{\"name\":\"radiosity\"},\"executable\":\"/t/release/radiosity\"}\n";
-        assert_eq!(executable(messages), Some(PathBuf::from("/t/release/radiosity")));
-        assert_eq!(executable("{}\n"), None);
-    }
 
     fn report() -> Value {
         serde_json::json!({
