@@ -59,10 +59,11 @@ impl Host {
         self.cpu == other.cpu && self.cores == other.cores
     }
 
-    /// Whether runs of both may stand in one list: nothing differs but the day.
+    /// Whether runs of both may stand in one list: machine and program are the same. The day may be
+    /// another, and so may the revision, as long as it makes the same program.
     pub(super) fn may_go_on(&self, other: &Self) -> bool {
-        let date = self.date.clone();
-        *self == Self { date, ..other.clone() }
+        let Self { date, revision, .. } = self.clone();
+        *self == Self { date, revision, ..other.clone() }
     }
 }
 
@@ -108,9 +109,10 @@ mod tests {
     }
 
     #[test]
-    fn only_the_day_may_differ() {
+    fn the_program_must_be_the_same() {
         let host = sample::host();
-        assert!(host.may_go_on(&Host { date: "2026-02-01".into(), ..host.clone() }));
+        let later = Host { date: "2026-02-01".into(), revision: "f".into(), ..host.clone() };
+        assert!(host.may_go_on(&later));
         let rebuilt = Host { program: "0".into(), ..host.clone() };
         assert!(!host.may_go_on(&rebuilt) && host.is_like(&rebuilt));
         assert!(!host.is_like(&Host { cores: 16, ..host.clone() }));
