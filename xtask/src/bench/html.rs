@@ -7,6 +7,7 @@ const STYLE: &str = "\
 body { font: 16px/1.5 system-ui, sans-serif; max-width: 1080px; margin: 2em auto; padding: 0 1em; \
 color: #111; background: #fff }
 nav ul { columns: 2 }
+figure { margin: 1em 0 }
 svg { max-width: 100%; height: auto }
 .scroll { overflow-x: auto }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums }
