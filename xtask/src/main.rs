@@ -10,6 +10,7 @@ mod instructions;
 mod numerics;
 mod precision;
 mod scenes;
+mod share;
 mod tidy;
 
 use std::path::{Path, PathBuf};

@@ -33,6 +33,7 @@ use std::path::{Path, PathBuf};
 
 use crate::precision::numbers::percent;
 use crate::precision::{self, Machine, Program};
+use crate::share::share;
 use cell::{Accel, Cell, Method};
 use host::Host;
 use matrix::{Asked, Study};
@@ -299,17 +300,6 @@ fn drawn(book: &Book) -> Result<Vec<(String, String)>, String> {
     let charts = sections.into_iter().flat_map(|section| section.charts);
     files.extend(charts.map(|chart| (chart.file, chart.svg)));
     Ok(files)
-}
-
-/// A share from 0 on, as `0.05` or `5%`.
-fn share(text: &str) -> Result<f64, String> {
-    let (number, unit) = match text.strip_suffix('%') {
-        Some(number) => (number, 0.01),
-        None => (text, 1.0),
-    };
-    let share = number.trim().parse::<f64>().ok().map(|number| number * unit);
-    let share = share.filter(|share| share.is_finite() && *share >= 0.0);
-    share.ok_or_else(|| format!("`{text}`: expected a share as 0.05 or 5%"))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::baseline::Counted;
-use super::share::{Percent, signed};
+use super::percent::{Percent, signed};
 use crate::precision::numbers::grouped;
 
 /// What to do where the baseline is no longer what the code does.

@@ -8,7 +8,7 @@ mod baseline;
 mod callgrind;
 mod compare;
 mod page;
-mod share;
+mod percent;
 mod toolchain;
 
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ use crate::built;
 use crate::precision;
 use baseline::{Baseline, Counted};
 use compare::Comparison;
-use share::Percent;
+use percent::Percent;
 use toolchain::Toolchain;
 
 /// Where the baseline and the page that shows it are kept.
@@ -32,12 +32,12 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     kernels: Vec<String>,
 
-    /// How many per cent more instructions than the baseline's are too many
+    /// How many more instructions than the baseline's are too many, as 0.02 or 2%
     ///
     /// Counts of unchanged code repeat to 0.1 %, the share of hash tables with a random seed. But
     /// after a change in one part the compiler may inline elsewhere in another, which moves a kernel
     /// by some tenths of a per cent to one. Twice that is worth a look.
-    #[arg(long, value_name = "PERCENT", default_value = "2")]
+    #[arg(long, value_name = "SHARE", default_value = "2%")]
     threshold: Percent,
 
     /// Make what is counted the new baseline, and renew the page
@@ -154,7 +154,7 @@ mod tests {
         let bare = parsed("").unwrap();
         assert!(bare.kernels.is_empty() && !bare.write && !bare.list);
         assert_eq!(bare.threshold, Percent::DEFAULT);
-        let some = parsed("--kernels accel,tri-io/parse --threshold 0.5").unwrap();
+        let some = parsed("--kernels accel,tri-io/parse --threshold 0.5%").unwrap();
         assert_eq!(some.kernels, ["accel", "tri-io/parse"]);
         assert_eq!(some.threshold.to_string(), "0.5 %");
         // A baseline of some kernels would forget the others.

@@ -26,10 +26,7 @@ impl FromStr for Percent {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        match text.parse() {
-            Ok(number) if f64::is_finite(number) && number >= 0.0 => Ok(Self(number)),
-            _ => Err(format!("expected a number of per cent from 0, found `{text}`")),
-        }
+        crate::share::share(text).map(|share| Self(100.0 * share))
     }
 }
 
@@ -78,10 +75,8 @@ mod tests {
     }
 
     #[test]
-    fn a_threshold_is_a_number_from_0() {
-        assert_eq!("0.5".parse(), Ok(Percent(0.5)));
-        for text in ["", "2%", "-1", "nan", "inf"] {
-            assert!(text.parse::<Percent>().is_err(), "{text}");
-        }
+    fn a_threshold_is_a_share() {
+        assert_eq!(["0.5%", "0.005"].map(str::parse), [Ok(Percent(0.5)), Ok(Percent(0.5))]);
+        assert!("-1%".parse::<Percent>().is_err());
     }
 }
