@@ -1,10 +1,10 @@
-//! Time to build each structure, per triangle.
+//! Time to build each structure, per triangle, by scene and by the number of triangles.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use accel::{Bvh, BvhConfig, Octree, OctreeConfig};
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 #[path = "../tests/integration/support/mod.rs"]
 #[allow(dead_code, clippy::print_stdout, reason = "shared with the tests, which use all of it")]
@@ -35,12 +35,30 @@ fn build(criterion: &mut Criterion) {
     bench_scene(criterion, "columns", &scenes::columns(16, 16));
 }
 
+/// Halls of ever more columns.
+fn by_triangles(criterion: &mut Criterion) {
+    for structure in ["bvh", "octree"] {
+        let mut group = criterion.benchmark_group(format!("build/triangles/{structure}"));
+        for columns in [2, 4, 8, 16, 32] {
+            let scene = scenes::columns(columns, 16);
+            group.throughput(Throughput::Elements(scene.len() as u64));
+            group.bench_function(BenchmarkId::from_parameter(scene.len()), |bencher| {
+                if structure == "bvh" {
+                    bencher.iter(|| Bvh::build(black_box(&scene), &BvhConfig::default()));
+                } else {
+                    bencher.iter(|| Octree::build(black_box(&scene), &OctreeConfig::default()));
+                }
+            });
+        }
+    }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(10)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(1));
-    targets = build
+    targets = build, by_triangles
 }
 criterion_main!(benches);

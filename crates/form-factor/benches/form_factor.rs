@@ -1,42 +1,54 @@
-//! Nanoseconds per form factor: estimators from a point, and pairs of triangles by tolerance.
+//! Nanoseconds per form factor: estimators from a point by distance over size, pairs of triangles by
+//! distance and tolerance, and pairs behind occluders.
 
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use form_factor::{
     Occluders, Polygon, REFERENCE, between, between_occluded, centroid_kernel, lambert,
     three_point_kernel,
 };
 use glam::DVec3;
 
-/// Points on a floor and unit triangles above it, at distances of 1 to 20.
-fn pairs() -> Vec<(DVec3, [DVec3; 3])> {
+/// Distances in longest edges. A tolerance of 1 % takes the exact form up to 2, three points up to
+/// 10, one beyond.
+const DISTANCES: [f64; 7] = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
+
+/// Points on a floor and triangles of longest edge 1 above it, at a distance.
+fn pairs(distance: f64) -> Vec<(DVec3, [DVec3; 3])> {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
     (0..256)
         .map(|i| {
             let t = f64::from(i);
             let point = DVec3::new((t * 0.37).fract() * 4.0, (t * 0.71).fract() * 4.0, 0.0);
-            let at = DVec3::new((t * 0.13).fract() * 4.0, 0.0, 1.0 + (t * 0.29).fract() * 19.0);
-            (point, [at, at + DVec3::Y, at + DVec3::X])
+            // Up to 45° off the normal.
+            let aside = DVec3::new((t * 0.13).fract() - 0.5, (t * 0.29).fract() - 0.5, 1.0);
+            let at = point + aside.normalize() * distance;
+            (point, [at, at + DVec3::Y * half, at + DVec3::X * half])
         })
         .collect()
 }
 
 fn from_points(c: &mut Criterion) {
-    let pairs = pairs();
-    let mut group = c.benchmark_group("form_factor");
-    group.throughput(Throughput::Elements(pairs.len() as u64));
-    let mut sum_of = |name: &str, f: &dyn Fn(DVec3, [DVec3; 3]) -> f64| {
-        group.bench_function(name, |b| {
+    let down = DVec3::NEG_Z;
+    by_distance(c, "centroid_kernel", |p, t| {
+        centroid_kernel(p, DVec3::Z, (t[0] + t[1] + t[2]) / 3.0, down, 0.25)
+    });
+    by_distance(c, "three_point_kernel", |p, t| three_point_kernel(p, DVec3::Z, t, down, 0.25));
+    by_distance(c, "lambert", |p, t| lambert(p, DVec3::Z, t).form_factor);
+    // The horizon of a normal along the floor runs through many of the triangles.
+    by_distance(c, "lambert_cut", |p, t| lambert(p, DVec3::X, t).form_factor);
+}
+
+fn by_distance(c: &mut Criterion, name: &str, f: impl Fn(DVec3, [DVec3; 3]) -> f64) {
+    let mut group = c.benchmark_group(format!("form_factor/{name}"));
+    for distance in DISTANCES {
+        let pairs = pairs(distance);
+        group.throughput(Throughput::Elements(pairs.len() as u64));
+        group.bench_function(BenchmarkId::from_parameter(distance), |b| {
             b.iter(|| black_box(&pairs).iter().map(|(p, t)| f(*p, *t)).sum::<f64>());
         });
-    };
-    let down = DVec3::NEG_Z;
-    sum_of("centroid_kernel", &|p, t| {
-        centroid_kernel(p, DVec3::Z, (t[0] + t[1] + t[2]) / 3.0, down, 0.5)
-    });
-    sum_of("three_point_kernel", &|p, t| three_point_kernel(p, DVec3::Z, t, down, 0.5));
-    sum_of("lambert", &|p, t| lambert(p, DVec3::Z, t).form_factor);
-    sum_of("lambert_cut", &|p, t| lambert(p, DVec3::X, t).form_factor);
+    }
 }
 
 /// Numbers in 0..1 that look random (xorshift, Marsaglia 2003).

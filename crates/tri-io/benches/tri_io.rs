@@ -1,6 +1,7 @@
-//! Float text beside the alternatives, and the reader and writer in bytes per second.
+//! Float text beside the alternatives and by digits, and the reader and writer in bytes per second,
+//! by bytes.
 //!
-//! `cargo bench -p tri-io -- float_text` and `cargo bench -p tri-io -- records`.
+//! `cargo bench -p tri-io -- float_text`, `-- digits`, `-- records` and `-- bytes`.
 
 #![allow(missing_docs)] // `criterion_group!` makes public functions without any
 
@@ -8,8 +9,8 @@ use std::ffi::c_char;
 use std::hint::black_box;
 use std::io::Write as _;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use tri_io::{FloatBuffer, Reader, TriRecord, Writer, write_f32};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use tri_io::{FloatBuffer, Reader, TriRecord, Writer, write_f32, write_f64};
 
 /// Values per float bench: enough that no branch predictor learns them by heart.
 const VALUES: usize = 8192;
@@ -84,6 +85,38 @@ fn float_text(c: &mut Criterion) {
     }
 }
 
+/// Numbers by their significant digits: an `f32` has up to 9, an `f64` up to 17.
+fn digits(c: &mut Criterion) {
+    let rounded = |digits: usize| {
+        let mut random = Random(2);
+        let value = move |_| format!("{:.*e}", digits - 1, 500.0 * random.signed());
+        (0..VALUES).map(value)
+    };
+    let mut group = c.benchmark_group("digits/write_f32");
+    group.throughput(Throughput::Elements(VALUES as u64));
+    for digits in [1, 3, 6, 9] {
+        let values: Vec<f32> =
+            rounded(digits).map(|text| text.parse().expect("it is a number")).collect();
+        let mut buffer = FloatBuffer::new();
+        let mut length = |value: &f32| write_f32(black_box(*value), &mut buffer).len();
+        group.bench_function(BenchmarkId::from_parameter(digits), |b| {
+            b.iter(|| values.iter().map(&mut length).sum::<usize>());
+        });
+    }
+    group.finish();
+    let mut group = c.benchmark_group("digits/write_f64");
+    group.throughput(Throughput::Elements(VALUES as u64));
+    for digits in [1, 5, 9, 13, 17] {
+        let values: Vec<f64> =
+            rounded(digits).map(|text| text.parse().expect("it is a number")).collect();
+        let mut buffer = FloatBuffer::new();
+        let mut length = |value: &f64| write_f64(black_box(*value), &mut buffer).len();
+        group.bench_function(BenchmarkId::from_parameter(digits), |b| {
+            b.iter(|| values.iter().map(&mut length).sum::<usize>());
+        });
+    }
+}
+
 #[allow(unsafe_code)] // the C library is what we compare with
 fn print(format: *const c_char, value: f32) -> usize {
     let mut buffer: [c_char; 64] = [0; 64];
@@ -94,9 +127,9 @@ fn print(format: *const c_char, value: f32) -> usize {
     usize::try_from(length).expect("the formats are valid")
 }
 
-fn room(random: &mut Random) -> Vec<TriRecord> {
+fn room(random: &mut Random, triangles: usize) -> Vec<TriRecord> {
     let mut triple = || [(); 3].map(|()| f64::from((500.0 * random.signed()) as f32));
-    (0..TRIANGLES)
+    (0..triangles)
         .map(|_| TriRecord {
             front: [61, 181, 181],
             back: [0, 0, 0],
@@ -127,13 +160,15 @@ fn shortest(records: &[TriRecord]) -> Vec<u8> {
 }
 
 fn records(c: &mut Criterion) {
-    let records = room(&mut Random(1));
+    let records = room(&mut Random(1), TRIANGLES);
     let mut group = c.benchmark_group("records");
     group.sample_size(20);
     for (name, text) in [("six_decimals", six_decimals(&records)), ("shortest", shortest(&records))]
     {
         group.throughput(Throughput::Bytes(text.len() as u64));
-        group.bench_function(format!("read/{name}"), |b| b.iter(|| read(black_box(&text))));
+        group.bench_function(format!("read/{name}"), |b| {
+            b.iter(|| assert_eq!(read(black_box(&text)), TRIANGLES));
+        });
         group.bench_function(format!("split_and_parse/{name}"), |b| {
             b.iter(|| split_and_parse(black_box(&text)));
         });
@@ -143,13 +178,30 @@ fn records(c: &mut Criterion) {
     group.finish();
 }
 
-fn read(text: &[u8]) {
+/// Files of ever more bytes: what starting costs, and that nothing grows faster than the file.
+fn bytes(c: &mut Criterion) {
+    for direction in ["read", "write"] {
+        let mut group = c.benchmark_group(format!("bytes/{direction}"));
+        for triangles in [10, 100, 1000, 10_000, 100_000] {
+            let records = room(&mut Random(3), triangles);
+            let text = shortest(&records);
+            group.throughput(Throughput::Bytes(text.len() as u64));
+            group.bench_function(BenchmarkId::from_parameter(text.len()), |b| match direction {
+                "read" => b.iter(|| read(black_box(&text))),
+                _ => b.iter(|| shortest(black_box(&records)).len()),
+            });
+        }
+    }
+}
+
+/// How many records a text holds.
+fn read(text: &[u8]) -> usize {
     let mut count = 0;
     for record in Reader::new(text) {
         black_box(record.expect("the text is valid"));
         count += 1;
     }
-    assert_eq!(count, TRIANGLES);
+    count
 }
 
 /// What std alone offers for a text already in memory: no records, no checks, no places.
@@ -158,5 +210,5 @@ fn split_and_parse(text: &[u8]) -> f64 {
     text.split_ascii_whitespace().filter_map(|word| word.parse::<f64>().ok()).sum()
 }
 
-criterion_group!(benches, float_text, records);
+criterion_group!(benches, float_text, digits, records, bytes);
 criterion_main!(benches);

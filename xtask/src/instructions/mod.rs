@@ -34,9 +34,9 @@ pub(crate) struct Arguments {
 
     /// How many more instructions than the baseline's are too many, as 0.02 or 2%
     ///
-    /// Counts of unchanged code repeat to 0.1 %, the share of hash tables with a random seed. But
-    /// after a change in one part the compiler may inline elsewhere in another, which moves a kernel
-    /// by some tenths of a per cent to one. Twice that is worth a look.
+    /// Counts of unchanged code repeat to 0.1 %, the share of hash tables with a random seed. Twenty
+    /// times that leaves room for a compiler that inlines a little differently in one part after a
+    /// change in another.
     #[arg(long, value_name = "SHARE", default_value = "2%")]
     threshold: Percent,
 
