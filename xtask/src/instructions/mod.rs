@@ -34,8 +34,8 @@ pub(crate) struct Arguments {
 
     /// How many more instructions than the baseline's are too many, as 0.02 or 2%
     ///
-    /// Counts of unchanged code repeat to 0.1 %, the share of hash tables with a random seed. Twenty
-    /// times that leaves room for a compiler that inlines a little differently in one part after a
+    /// Counts of unchanged code repeat to 0.06 %, what the places of stack and heap do. Thirty times
+    /// that leaves room for a compiler that inlines a little differently in one part after a
     /// change in another.
     #[arg(long, value_name = "SHARE", default_value = "2%")]
     threshold: Percent,

@@ -20,11 +20,10 @@ mod pairs;
 mod places;
 mod plan;
 
-use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use scene::VertexId;
 
 use contact::Contact;
@@ -79,7 +78,7 @@ pub(super) struct Piece {
 pub(super) struct Cut {
     /// The pieces of each triangle that does not stay as it is, by its number, and those that are
     /// covered.
-    pub(super) pieces: HashMap<usize, Vec<Piece>>,
+    pub(super) pieces: FxHashMap<usize, Vec<Piece>>,
     /// Edges of pieces along contacts.
     pub(super) barriers: FxHashSet<Edge>,
 }

@@ -7,10 +7,10 @@
 //! as longer than it is, by the square root of the light there over that of a place far from
 //! all lamps.
 
-use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use scene::VertexId;
 
 use super::{Root, triangle_area};
@@ -112,7 +112,7 @@ impl Sum {
 
 /// Numbers the parts of `roots` that hang together by vertices, in the order of their first root.
 fn connected(roots: &[usize], corners: &[[VertexId; 3]]) -> Vec<usize> {
-    let mut first_at: HashMap<VertexId, usize> = HashMap::new();
+    let mut first_at: FxHashMap<VertexId, usize> = FxHashMap::default();
     let mut leader: Vec<usize> = (0..roots.len()).collect();
     fn find(leader: &mut [usize], mut i: usize) -> usize {
         while leader[i] != i {
@@ -128,7 +128,7 @@ fn connected(roots: &[usize], corners: &[[VertexId; 3]]) -> Vec<usize> {
             leader[a.max(b)] = a.min(b);
         }
     }
-    let mut number: HashMap<usize, usize> = HashMap::new();
+    let mut number: FxHashMap<usize, usize> = FxHashMap::default();
     (0..roots.len())
         .map(|i| {
             let next = number.len();

@@ -1,9 +1,7 @@
 //! Input triangles to roots over shared vertices, cut along contacts.
 
-use std::collections::{HashMap, HashSet};
-
 use glam::DVec3;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use scene::{Face, Scene, Sides, TriangleId, VertexId};
 
 use super::Root;
@@ -113,8 +111,8 @@ struct Surfaces {
 
 fn surfaces(scene: &Scene) -> Surfaces {
     let mut all = Surfaces::default();
-    let mut known: HashMap<[u64; 3], VertexId> = HashMap::new();
-    let mut seen = HashSet::new();
+    let mut known: FxHashMap<[u64; 3], VertexId> = FxHashMap::default();
+    let mut seen = FxHashSet::default();
     for id in scene.ids() {
         let p = scene.corners(id);
         let Some(normal) = unit_normal(p) else { continue };

@@ -1,8 +1,7 @@
 //! Vertices by their place, so that what lies in one place is one vertex.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use scene::VertexId;
 
 use super::Surface;
@@ -17,13 +16,13 @@ pub(super) struct Places<'a> {
     vertices: &'a mut Vec<DVec3>,
     near: f64,
     /// Vertices by the cell of a grid that they lie in; looked up, never walked.
-    cells: HashMap<[i64; 3], Vec<VertexId>>,
+    cells: FxHashMap<[i64; 3], Vec<VertexId>>,
 }
 
 impl<'a> Places<'a> {
     /// The vertices so far; places up to `near` apart count as one.
     pub(super) fn new(vertices: &'a mut Vec<DVec3>, near: f64) -> Self {
-        let mut places = Self { vertices, near, cells: HashMap::new() };
+        let mut places = Self { vertices, near, cells: FxHashMap::default() };
         for i in 0..places.vertices.len() {
             places.enter(VertexId::from(i));
         }

@@ -1,9 +1,9 @@
 //! What is to be done to which triangle, gathered from all meetings and then carried out.
 
-use std::collections::HashMap;
 use std::ops::ControlFlow;
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use scene::VertexId;
 
 use super::face::Face;
@@ -17,12 +17,12 @@ use crate::mesh::triangle_area;
 /// The triangles at each edge.
 pub(super) struct Neighbours<'a> {
     surfaces: &'a [Surface],
-    at_edge: HashMap<Edge, Vec<usize>>,
+    at_edge: FxHashMap<Edge, Vec<usize>>,
 }
 
 impl<'a> Neighbours<'a> {
     pub(super) fn new(surfaces: &'a [Surface]) -> Self {
-        let mut at_edge: HashMap<Edge, Vec<usize>> = HashMap::new();
+        let mut at_edge: FxHashMap<Edge, Vec<usize>> = FxHashMap::default();
         for (number, surface) in surfaces.iter().enumerate() {
             for k in 0..3 {
                 at_edge.entry(surface.edge(k)).or_default().push(number);
@@ -43,9 +43,9 @@ impl<'a> Neighbours<'a> {
 /// What is to be done to the triangles that are not left as they are.
 #[derive(Default)]
 pub(super) struct Plan {
-    faces: HashMap<usize, Face>,
+    faces: FxHashMap<usize, Face>,
     /// What covers a triangle: the number of the earlier one, and what of it.
-    covers: HashMap<usize, Vec<(usize, Overlap)>>,
+    covers: FxHashMap<usize, Vec<(usize, Overlap)>>,
 }
 
 impl Plan {
