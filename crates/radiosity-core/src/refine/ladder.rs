@@ -197,8 +197,10 @@ impl<'a, E: Executor> Ladder<'a, E> {
                     return Err(Reached::Unseen);
                 }
                 let left = target * AIM - parts.iteration - parts.form_factor;
+                // No level that is too coarse to be the last one, however little is asked.
+                let least = if seen { LEAST_GROWTH } else { GROWTH };
                 let wanted = if parts.mesh.is_finite() && left > 0.0 {
-                    (parts.mesh / left).powi(2).clamp(LEAST_GROWTH, GROWTH)
+                    (parts.mesh / left).powi(2).clamp(least, GROWTH)
                 } else {
                     GROWTH
                 };
