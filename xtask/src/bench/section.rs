@@ -28,6 +28,9 @@ pub(super) struct Table {
 /// differences that are looked for here, which are some per cent.
 const BUSY: f64 = 0.03;
 
+/// From so many elements on, little else than elements takes time and memory.
+const LARGE: f64 = 10_000.0;
+
 /// All sections that the records have something for.
 ///
 /// # Errors
@@ -164,10 +167,11 @@ fn plain<'a>(groups: &'a [Group<'a>], host: &Host) -> Vec<&'a Group<'a>> {
 fn precision(groups: &[Group], scene: Scene, host: &Host) -> Result<Option<Section>, String> {
     let mut known = plain(groups, host);
     known.retain(|g| g.cell.scene == scene && g.first().measured.is_some());
-    known.sort_by(|a, b| {
-        let key = |group: &Group| (group.cell.method, group.cell.elements);
-        key(a).cmp(&key(b)).then(b.cell.goal.total_cmp(&a.cell.goal))
-    });
+    // A curve has two goals at least: what a mesh of one more size does is in the section on growth.
+    let kind = |group: &Group| (group.cell.method, group.cell.elements);
+    let kinds: Vec<_> = known.iter().map(|group| kind(group)).collect();
+    known.retain(|group| kinds.iter().filter(|other| **other == kind(group)).count() > 1);
+    known.sort_by(|a, b| kind(a).cmp(&kind(b)).then(b.cell.goal.total_cmp(&a.cell.goal)));
     let Some(chart) = chart::error_against_time(&known, host)? else { return Ok(None) };
     let rows = known.iter().map(|group| {
         let first = group.first();
@@ -274,8 +278,13 @@ fn growth(groups: &[Group], host: &Host) -> Result<Option<Section>, String> {
         };
         let time = pairs(&|group| Some(group.time().median));
         let bytes = pairs(&|group| group.peak());
+        let exponent = |pairs: &[(f64, f64)]| {
+            fit::power(pairs).map_or_else(|| "unknown".into(), |(k, _)| signed_digits(k))
+        };
         let law = |pairs: &[(f64, f64)]| {
-            fit::power(pairs).map_or_else(|| "unknown".into(), |(k, _)| digits(k, 3))
+            let large: Vec<_> = pairs.iter().filter(|(x, _)| *x >= LARGE).copied().collect();
+            let count = grouped(LARGE as u64);
+            format!("{} ({} from {count} on)", exponent(pairs), exponent(&large))
         };
         let end = |pairs: &[(f64, f64)], scale: f64| {
             fit::slope_at_the_end(pairs)
@@ -425,6 +434,8 @@ mod tests {
         let rows = &precision.table.as_ref().unwrap().rows;
         let refined = rows.iter().find(|row| row[0] == "refine" && row[1] == "2 %").unwrap();
         assert_eq!(refined[2..7], ["7,999", "2.00 s (2.00–2.00)", "2.0 %", "1.0 %", "4.0 %"]);
+        // Meshes with one goal have no curve.
+        assert_eq!(rows.len(), 2);
     }
 
     /// A second more for each ten thousand elements, 90 MB for 90,000.
@@ -432,9 +443,8 @@ mod tests {
     fn growth_has_exponents_and_slopes() {
         let sections = sections();
         let growth = section(&sections, "Growth with the elements");
-        assert!(
-            growth.words[0].starts_with("Room: time grows as the elements to the power of 1.00")
-        );
+        let start = "Room: time grows as the elements to the power of 1.00 (1.00 from 10,000 on)";
+        assert!(growth.words[0].starts_with(start), "{}", growth.words[0]);
         assert!(growth.words[0].contains("takes 100 µs and 1000 bytes"), "{}", growth.words[0]);
         assert_eq!(growth.table.as_ref().unwrap().rows.len(), 3);
     }
