@@ -29,7 +29,7 @@ pub(super) struct Table {
 const BUSY: f64 = 0.03;
 
 /// From so many elements on, little else than elements takes time and memory.
-const LARGE: f64 = 10_000.0;
+pub(super) const LARGE: f64 = 10_000.0;
 
 /// All sections that the records have something for.
 ///

@@ -10,6 +10,7 @@ pub(crate) mod color {
     pub(crate) const BLACK: Color = [0, 0, 0];
     pub(crate) const GREY: Color = [120, 120, 120];
     pub(crate) const BLUE: Color = [0, 114, 178];
+    pub(crate) const ORANGE: Color = [230, 159, 0];
     pub(crate) const GREEN: Color = [0, 158, 115];
     pub(crate) const VERMILION: Color = [213, 94, 0];
     pub(crate) const PURPLE: Color = [204, 121, 167];

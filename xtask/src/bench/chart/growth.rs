@@ -4,8 +4,9 @@ use super::{Chart, look, note, runs};
 use crate::bench::fit;
 use crate::bench::group::Group;
 use crate::bench::host::Host;
+use crate::bench::section::LARGE;
 use crate::figure::{Axis, Curve, Entry, Figure, Labels, Look, Marker, Point, Stroke, color};
-use crate::precision::numbers::{digits, goal};
+use crate::precision::numbers::{digits, goal, grouped};
 
 /// Time against elements; each slice holds the sizes of one scene, ascending.
 ///
@@ -66,7 +67,7 @@ fn figure(
         y,
         levels: Vec::new(),
         curves: Vec::new(),
-        legend: vec![Entry::of(fitted, "power law, fitted"), Entry::heading("Scenes")],
+        legend: vec![Entry::heading("Scenes")],
     };
     for (number, groups) in scenes.iter().enumerate() {
         let look = look(number);
@@ -75,18 +76,23 @@ fn figure(
             let Some((y, rise)) = reading(group) else { continue };
             points.push(Point { rise, ..Point::at(group.first().work.elements as f64, y) });
         }
-        let pairs: Vec<_> = points.iter().map(|p| (p.x, p.y)).collect();
+        let large = points.iter().filter(|point| point.x >= LARGE);
+        let pairs: Vec<_> = large.map(|point| (point.x, point.y)).collect();
         let scene = groups.first().map_or("", |group| group.cell.scene.title());
         let mut name = scene.to_owned();
         if let (Some((k, c)), Some(first), Some(last)) =
-            (fit::power(&pairs), points.first(), points.last())
+            (fit::power(&pairs), pairs.first(), pairs.last())
         {
-            let law = [first.x, last.x].map(|x| Point::at(x, c * x.powf(k))).to_vec();
+            let law = [first.0, last.0].map(|x| Point::at(x, c * x.powf(k))).to_vec();
             figure.curves.push(Curve { look: Look { color: look.color, ..fitted }, points: law });
             name += &format!(": elements^{}", digits(k, 3));
         }
         figure.legend.push(Entry::of(look, name));
         figure.curves.push(Curve { look, points });
+    }
+    if figure.curves.len() > scenes.len() {
+        let text = format!("power law from {} on", grouped(LARGE as u64));
+        figure.legend.insert(0, Entry::of(fitted, text));
     }
     figure
 }

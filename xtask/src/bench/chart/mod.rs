@@ -25,12 +25,13 @@ pub(super) struct Chart {
     pub(super) svg: String,
 }
 
-const COLORS: [Color; 4] = [color::BLUE, color::VERMILION, color::GREEN, color::PURPLE];
+const COLORS: [Color; 6] =
+    [color::BLUE, color::VERMILION, color::GREEN, color::PURPLE, color::BLACK, color::ORANGE];
 const MARKERS: [Marker; 4] = [Marker::Dot, Marker::Square, Marker::Triangle, Marker::Cross];
 const STROKES: [Stroke; 2] = [Stroke::Solid, Stroke::Dashed];
 
-/// Sixteen curves differ in colour or marker, thirty-two with their strokes; neighbours in both, so
-/// that they can be told apart without colours.
+/// Twenty-four curves differ in colour or marker, forty-eight with their strokes; neighbours in both,
+/// so that they can be told apart without colours.
 fn look(number: usize) -> Look {
     let (colors, markers) = (COLORS.len(), MARKERS.len());
     let marker = MARKERS[(number + number / colors) % markers];
@@ -80,7 +81,7 @@ mod tests {
 
     #[test]
     fn curves_look_different() {
-        let looks: Vec<_> = (0..32).map(look).collect();
+        let looks: Vec<_> = (0..48).map(look).collect();
         for (i, look) in looks.iter().enumerate() {
             assert!(!looks[..i].contains(look), "{i}");
         }
