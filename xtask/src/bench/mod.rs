@@ -106,7 +106,7 @@ pub(crate) struct Arguments {
     #[arg(long, conflicts_with_all = ["list", "quick", "against", "fresh", "threads"])]
     draw: bool,
 
-    /// Keep records there [default: docs/bench/<date>-<host>]
+    /// Keep records there [default: docs/bench/DATE-HOST]
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
 
