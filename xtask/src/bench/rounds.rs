@@ -33,6 +33,11 @@ pub(super) fn run(
                     println!("[{done}/{all}] {}: {}{error}", cell.name(), seconds(timed.seconds));
                     Outcome::Timed(timed)
                 }
+                // Exit code 2 is a wrong command line: nothing was run, and no record is of use.
+                Err(reason) if reason.contains("exit status: 2") => {
+                    let line = reason.lines().next().unwrap_or_default();
+                    return Err(format!("{}: {line}", cell.name()));
+                }
                 Err(reason) => {
                     println!("[{done}/{all}] {}: does not count: {reason}", cell.name());
                     Outcome::Refused(reason)
