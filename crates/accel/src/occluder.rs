@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::proof::Outlook;
 use crate::{Segment, Target};
 
 /// Says whether any triangle blocks a segment.
@@ -26,5 +27,19 @@ pub trait Occluder: Sync {
             let segment = Segment { from, to: target.point, ignore: [ignore, target.ignore] };
             *answer = self.occluded(&segment);
         }
+    }
+
+    /// Looks out from the front of a triangle, to tell of many segments at once; `None` if nothing is
+    /// known of them but one by one.
+    fn look_from(&self, surface: [DVec3; 3]) -> Option<Outlook<'_>> {
+        let _ = surface;
+        None
+    }
+
+    /// A number of the sealed space that a place lies in: places of different spaces do not see each
+    /// other. `None` if that is not known of it.
+    fn space(&self, place: DVec3) -> Option<u64> {
+        let _ = place;
+        None
     }
 }

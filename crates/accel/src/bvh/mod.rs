@@ -110,8 +110,24 @@ impl Bvh {
         config: &BvhConfig,
         run: impl Fn(&mut [Part<'_>], &(dyn Fn(&mut Part<'_>) + Sync)),
     ) -> Self {
+        Self::build_of(triangles, |_| true, config, run)
+    }
+
+    /// Builds the hierarchy over those triangles that `may_block`; the others never do, and keep their
+    /// index. What blocks answers to the bit as it would among all.
+    ///
+    /// # Panics
+    /// Panics if there are 2³¹ − 1 triangles or more, or if `run` leaves a part out.
+    pub fn build_of(
+        triangles: &[[DVec3; 3]],
+        may_block: impl Fn(usize) -> bool,
+        config: &BvhConfig,
+        run: impl Fn(&mut [Part<'_>], &(dyn Fn(&mut Part<'_>) + Sync)),
+    ) -> Self {
         assert!(triangles.len() < LEAF as usize - 1, "one bit of each index marks leaves");
-        let (frame, kept) = Frame::of(triangles);
+        // The frame is that of all: it is what positions are rounded to.
+        let (frame, mut kept) = Frame::of(triangles);
+        kept.retain(|triangle| may_block(triangle.index as usize));
         let Tree { nodes, blocks, depth } = build::build(&kept, config, run);
         Self { frame, nodes, blocks, depth, width: Found::of(Width::fastest()) }
     }

@@ -89,7 +89,22 @@ impl Octree {
     /// # Panics
     /// Panics if there are 2³² − 1 triangles or more, or as many list entries.
     pub fn build(triangles: &[[DVec3; 3]], config: &OctreeConfig) -> Self {
-        let (frame, kept) = Frame::of(triangles);
+        Self::build_of(triangles, |_| true, config)
+    }
+
+    /// Builds the octree over those triangles that `may_block`; the others never do, and keep their
+    /// index. What blocks answers to the bit as it would among all.
+    ///
+    /// # Panics
+    /// Panics if there are 2³² − 1 triangles or more.
+    pub fn build_of(
+        triangles: &[[DVec3; 3]],
+        may_block: impl Fn(usize) -> bool,
+        config: &OctreeConfig,
+    ) -> Self {
+        // The frame is that of all: it is what positions are rounded to.
+        let (frame, mut kept) = Frame::of(triangles);
+        kept.retain(|triangle| may_block(triangle.index as usize));
         build::build(frame, kept, config)
     }
 
