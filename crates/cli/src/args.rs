@@ -30,7 +30,7 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Light a scene and write it out
     Solve(Box<SolveArgs>),
-    /// Say what a scene file holds, what looks wrong in it, and what a solve would use
+    /// Say what a scene file holds, what looks wrong in it, and what a solve would leave out, and why
     Plan(PlanArgs),
     /// Write the form factors between groups or triangles: the share of the light leaving one
     /// that arrives at the other
@@ -71,7 +71,7 @@ pub(crate) enum SidesArg {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum AccelArg {
-    /// The fastest for the scene: bvh
+    /// What the plan finds the fastest: bvh, or none where nothing can block
     Auto,
     /// Octree walked by 3D-DDA
     Octree,
@@ -93,9 +93,23 @@ pub(crate) struct WorkArgs {
     #[arg(long, value_enum, default_value_t = AccelArg::Auto)]
     pub(crate) accel: AccelArg,
 
-    /// Threads; 0 for as many as the machine has. The result does not depend on it
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) threads: usize,
+    /// Threads; 0 for as many as the machine has [default: as many as pay]. The result does not
+    /// depend on it
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+
+    /// What the scene needs, which `radiosity plan` explains, or `everything`, whatever it needs: for
+    /// comparison
+    #[arg(long, value_enum, default_value_t = NeedArg::Auto)]
+    pub(crate) need: NeedArg,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NeedArg {
+    /// What the scene does not need is left out
+    Auto,
+    /// Nothing is left out
+    Everything,
 }
 
 #[derive(Debug, clap::Args)]
@@ -212,6 +226,14 @@ pub(crate) struct PlanArgs {
     /// Scene file: .tri, .vs3, .obj (with its .mtl), .gltf or .glb
     #[arg(value_name = "SCENE")]
     pub(crate) scene: PathBuf,
+
+    /// Error that a solve would be asked for, unless --elements fixes the work
+    #[arg(long, value_name = "X", value_parser = share, default_value = "1%", conflicts_with = "elements")]
+    pub(crate) error: f64,
+
+    /// Write the plan as JSON (docs/report.md says what each field is)
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) report: Option<PathBuf>,
 
     #[command(flatten)]
     pub(crate) work: WorkArgs,

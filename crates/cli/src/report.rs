@@ -1,10 +1,11 @@
 //! The JSON report: wire types at the edge, described in docs/report.md.
 
 mod error;
+mod plan;
 
 use std::path::Path;
 
-use radiosity_core::{Exchange, Reached, Statement, StopReason};
+use radiosity_core::{Exchange, Plan, Reached, Statement, StopReason};
 use scene::{Rgb, Scene};
 use scene_import::Imported;
 use serde::Serialize;
@@ -16,6 +17,7 @@ use crate::settings::{Goal, Solve};
 use crate::snapshot::Snapshot;
 use crate::stages::StageSeconds;
 use error::ErrorFacts;
+use plan::PlanFacts;
 
 /// Version of the fields and their meaning.
 const SCHEMA: u32 = 2;
@@ -29,6 +31,7 @@ pub(crate) struct Report {
     warnings: Vec<String>,
     settings: Settings,
     mesh: MeshFacts,
+    plan: PlanFacts,
     occluder: OccluderFacts,
     solve: SolveFacts,
     error: Option<ErrorFacts>,
@@ -92,6 +95,7 @@ struct SolveFacts {
     shots: u64,
     rays: u64,
     form_factors: u64,
+    directions: u64,
     ambient_corrections: bool,
 }
 
@@ -109,6 +113,7 @@ struct Energy {
 #[derive(Serialize)]
 struct Seconds {
     read: f64,
+    plan: f64,
     occluder: f64,
     solve: f64,
     stages: StageSeconds,
@@ -279,6 +284,7 @@ impl Report {
                 receiver_points: refined.mesh.points().len(),
                 covered_triangles: refined.mesh.covered(),
             },
+            plan: PlanFacts::of(&prepared.plan, Some((refined, solved.seconds))),
             occluder: OccluderFacts {
                 kind: prepared.occluder_name,
                 bytes: prepared.occluder_bytes,
@@ -291,6 +297,7 @@ impl Report {
                 shots: work.shots,
                 rays: work.rays,
                 form_factors: work.form_factors,
+                directions: work.directions,
                 ambient_corrections: refined.corrected,
             },
             error: refined.statement.as_ref().map(error),
@@ -305,6 +312,7 @@ impl Report {
             },
             seconds: Seconds {
                 read: run.read_seconds,
+                plan: prepared.plan_seconds,
                 occluder: prepared.occluder_seconds,
                 solve: solved.seconds,
                 stages: solved.stages,
@@ -319,10 +327,44 @@ impl Report {
 
     /// Writes the report, all of it or not at all.
     pub(crate) fn write(&self, path: &Path) -> Result<(), Failure> {
-        output::replace_file(path, |out| {
-            serde_json::to_writer_pretty(&mut *out, self).map_err(std::io::Error::from)?;
-            Ok(writeln!(out)?)
-        })?;
-        Ok(())
+        write(path, self)
     }
+}
+
+/// The report of `plan`.
+#[derive(Serialize)]
+pub(crate) struct PlanReport {
+    schema: u32,
+    program: &'static str,
+    version: &'static str,
+    scene: SceneFacts,
+    warnings: Vec<String>,
+    plan: PlanFacts,
+}
+
+impl PlanReport {
+    /// Of a scene that is not solved.
+    pub(crate) fn of(file: &str, imported: &Imported, plan: &Plan) -> Self {
+        Self {
+            schema: SCHEMA,
+            program: "radiosity",
+            version: env!("CARGO_PKG_VERSION"),
+            scene: SceneFacts::of(file, imported),
+            warnings: imported.diagnostics.iter().map(ToString::to_string).collect(),
+            plan: PlanFacts::of(plan, None),
+        }
+    }
+
+    /// Writes the report, all of it or not at all.
+    pub(crate) fn write(&self, path: &Path) -> Result<(), Failure> {
+        write(path, self)
+    }
+}
+
+fn write(path: &Path, report: &impl Serialize) -> Result<(), Failure> {
+    output::replace_file(path, |out| {
+        serde_json::to_writer_pretty(&mut *out, report).map_err(std::io::Error::from)?;
+        Ok(writeln!(out)?)
+    })?;
+    Ok(())
 }

@@ -4,7 +4,7 @@ mod form_factors;
 mod goal;
 mod keeping;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use output::{Exposure, Format};
 use radiosity_core::{Correction, Exchange, MeshConfig, Schedule, Split};
@@ -12,11 +12,12 @@ use radiosity_par::Loop;
 use scene_import::SidesRule;
 
 use crate::args::{
-    AccelArg, Every, PictureArgs, ReadArgs, ShootingArgs, SidesArg, SolveArgs, SplitArg, WorkArgs,
+    AccelArg, Every, NeedArg, PictureArgs, ReadArgs, ShootingArgs, SidesArg, SolveArgs, SplitArg,
+    WorkArgs,
 };
 use crate::failure::Failure;
 pub(crate) use form_factors::{FormFactors, TableTarget, form_factors};
-use goal::{DEFAULT_CONVERGE, DEFAULT_ERROR};
+pub(crate) use goal::{DEFAULT_CONVERGE, DEFAULT_ERROR};
 pub(crate) use goal::{Goal, Limits};
 pub(crate) use keeping::Keeping;
 
@@ -61,7 +62,10 @@ pub(crate) enum Target {
 pub(crate) struct Work {
     pub(crate) elements: Option<usize>,
     pub(crate) accel: AccelArg,
-    pub(crate) threads: usize,
+    /// `None` for as many as pay.
+    pub(crate) threads: Option<usize>,
+    /// Whether nothing is left out.
+    pub(crate) everything: bool,
 }
 
 /// Who shoots with whom, how threads share the work, and where elements are split.
@@ -98,15 +102,7 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
     if outputs.iter().filter(|t| **t == Target::Stdout).count() > 1 {
         return Err(Failure::Usage("-o -: stdout takes one table, and is named twice".into()));
     }
-    if let Some(report) =
-        args.report.as_deref().filter(|r| r.extension().is_none_or(|e| e != "json"))
-        && !std::fs::metadata(report).is_ok_and(|m| !m.is_file())
-    {
-        let shown = report.display();
-        return Err(Failure::Usage(format!(
-            "--report {shown}: expected a name that ends in .json"
-        )));
-    }
+    args.report.as_deref().map(check_report).transpose()?;
     let wants_probes = outputs.iter().any(|t| matches!(t, Target::Probes(_)));
     match (&args.probe, wants_probes) {
         (Some(_), false) => {
@@ -167,12 +163,27 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
     })
 }
 
+/// Refuses a report that is not named as one, unless it goes to a device.
+pub(crate) fn check_report(report: &Path) -> Result<(), Failure> {
+    let named = report.extension().is_some_and(|e| e == "json");
+    if named || std::fs::metadata(report).is_ok_and(|m| !m.is_file()) {
+        return Ok(());
+    }
+    let shown = report.display();
+    Err(Failure::Usage(format!("--report {shown}: expected a name that ends in .json")))
+}
+
 /// Resolves the flags that say how much work is done.
 pub(crate) fn work(args: &WorkArgs) -> Result<Work, Failure> {
     if args.elements.is_some_and(|n| !(1..=MOST_ELEMENTS).contains(&n)) {
         return Err(Failure::Usage(format!("--elements: expected 1 to {MOST_ELEMENTS}")));
     }
-    Ok(Work { elements: args.elements, accel: args.accel, threads: threads(args.threads)? })
+    Ok(Work {
+        elements: args.elements,
+        accel: args.accel,
+        threads: args.threads.map(threads).transpose()?,
+        everything: args.need == NeedArg::Everything,
+    })
 }
 
 /// Resolves the flags that say how light is shot; `fixed` if the mesh does not follow it.

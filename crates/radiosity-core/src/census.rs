@@ -8,11 +8,12 @@ use std::f64::consts::TAU;
 
 use accel::{Bvh, NO_TRIANGLE, Occluder, Segment};
 use glam::DVec3;
-use scene::{Rgb, Scene, Sides, TriangleId};
+use scene::{Face, Rgb, Scene, Sides, TriangleId};
 
 use crate::config::Exchange;
 use crate::executor::Executor;
 use crate::mesh::{Mesh, Patch};
+use crate::needs;
 use crate::observer::Stopper;
 use crate::shooting::SEGMENT_LIFT;
 
@@ -42,6 +43,8 @@ enum End {
     /// At a side that takes light.
     #[default]
     Received,
+    /// At a side that takes light, and reflects none of it.
+    Black,
     /// At the back of a one-sided surface.
     Back,
     /// It starts inside something, where no light is: the light of its element comes from
@@ -64,6 +67,8 @@ pub struct Census {
     samples: Vec<Sample>,
     /// Whether each receiver point lies inside something: see [`Census::buried`].
     buried: Vec<bool>,
+    /// No samples were needed: all light arrives.
+    closed: bool,
 }
 
 /// A shot's power that met backs, and that left the scene.
@@ -71,9 +76,24 @@ pub struct Census {
 pub(crate) struct Lost {
     pub(crate) wrong_side: Rgb,
     pub(crate) escaped: Rgb,
+    /// Met surfaces that reflect none of it: counted where those receive nothing.
+    pub(crate) black: Rgb,
 }
 
 impl Census {
+    /// Of a closed scene in which every place sees all that it faces: all light arrives, and no place
+    /// lies inside of anything. Not one direction is followed.
+    #[must_use]
+    pub fn closed() -> Self {
+        Self { closed: true, ..Self::default() }
+    }
+
+    /// How many directions were followed, at least: those of the samples and of the points.
+    #[must_use]
+    pub fn directions(&self) -> u64 {
+        (self.samples.len() + self.buried.len()) as u64
+    }
+
     /// Samples where each patch's light goes; `bvh` holds the scene's triangles in order.
     #[must_use]
     pub fn take<E: Executor>(
@@ -96,7 +116,10 @@ impl Census {
         stopper: Option<&Stopper>,
     ) -> Option<Self> {
         let stopped = || stopper.is_some_and(|stop| stop());
-        let look = Look { scene, mesh, bvh, exchange };
+        let black = needs::black(&mesh.roots);
+        let black =
+            if black.contains(&true) { black_sides(scene, mesh, &black) } else { Vec::new() };
+        let look = Look { scene, mesh, bvh, exchange, black };
         let mut buried = vec![false; mesh.points.len()];
         let mut work: Vec<_> = mesh.points.chunks(RUN).zip(buried.chunks_mut(RUN)).collect();
         executor.for_each(&mut work, |(points, buried)| {
@@ -120,7 +143,7 @@ impl Census {
                 *slot = look.follow(patch, i, shift);
             }
         });
-        (!stopped()).then_some(Self { samples, buried })
+        (!stopped()).then_some(Self { samples, buried, closed: false })
     }
 
     /// Whether a receiver point lies inside something, such as a floor's point below a box:
@@ -134,7 +157,7 @@ impl Census {
     /// Whether there are no samples: an empty mesh, or no census taken.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.samples.is_empty()
+        self.samples.is_empty() && !self.closed
     }
 
     /// The fates, in the order of the mesh's patches.
@@ -169,6 +192,7 @@ impl Census {
             }
             match sample.end {
                 End::Received | End::Inside => {}
+                End::Black => ends.black += light,
                 End::Back => ends.wrong_side += light,
                 End::Nowhere => ends.escaped += light,
             }
@@ -176,7 +200,11 @@ impl Census {
         let share = |part: Rgb| {
             Rgb([0, 1, 2].map(|c| if all[c] > 0.0 { power[c] * (part[c] / all[c]) } else { 0.0 }))
         };
-        Lost { wrong_side: share(ends.wrong_side), escaped: share(ends.escaped) }
+        Lost {
+            wrong_side: share(ends.wrong_side),
+            escaped: share(ends.escaped),
+            black: share(ends.black),
+        }
     }
 }
 
@@ -186,6 +214,8 @@ struct Look<'a> {
     mesh: &'a Mesh,
     bvh: &'a Bvh,
     exchange: Exchange,
+    /// Whether the front and the back of each triangle are black; empty if none is.
+    black: Vec<[bool; 2]>,
 }
 
 impl Look<'_> {
@@ -220,7 +250,15 @@ impl Look<'_> {
         let Some(hit) = self.bvh.nearest(from, way) else { return End::Nowhere };
         let material = self.scene.material_of(TriangleId(hit.triangle));
         let received = material.sides == Sides::Both || hit.front == (side > 0.0);
-        if received { End::Received } else { End::Back }
+        let black = || {
+            let sides = self.black.get(hit.triangle as usize);
+            sides.is_some_and(|sides| sides[usize::from(!hit.front)])
+        };
+        match received {
+            true if black() => End::Black,
+            true => End::Received,
+            false => End::Back,
+        }
     }
 
     /// Whether a second surface lies where a ray met a back: of two sheets back to back in
@@ -232,6 +270,15 @@ impl Look<'_> {
         let (from, to) = (place - way * lift, place + way * lift);
         self.bvh.occluded(&Segment { from, to, ignore: [hit.triangle, NO_TRIANGLE] })
     }
+}
+
+/// Whether the front and the back of each triangle are black.
+fn black_sides(scene: &Scene, mesh: &Mesh, black: &[bool]) -> Vec<[bool; 2]> {
+    let mut sides = vec![[false; 2]; scene.triangles().len()];
+    for (root, black) in mesh.roots.iter().zip(black) {
+        sides[root.triangle.index()][usize::from(root.face == Face::Back)] |= black;
+    }
+    sides
 }
 
 /// The element that the i-th direction starts from: shared out by area.

@@ -1,5 +1,7 @@
 //! What a caller may choose: how finely to split, how light is exchanged, when to stop.
 
+use crate::needs::Needs;
+
 /// Who exchanges light with whom.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Exchange {
@@ -34,6 +36,9 @@ pub struct MeshConfig {
     pub most_depth: u32,
     /// How [`crate::Mesh::refined`] splits.
     pub split: Split,
+    /// Whether triangles that neither emit nor reflect any of the light there is are split for their
+    /// own sake.
+    pub split_black: bool,
 }
 
 impl MeshConfig {
@@ -49,6 +54,7 @@ impl MeshConfig {
             least_area: 0.0,
             most_depth: u32::MAX,
             split: Split::LongestEdge,
+            split_black: true,
         }
     }
 }
@@ -113,6 +119,8 @@ pub struct ShootingConfig {
     /// Whether the solution shows, beside the light received, what is still to come: all unshot light
     /// spread evenly over all surfaces that got some. Without effect on the shots.
     pub ambient: bool,
+    /// What is done, and what is left out.
+    pub needs: Needs,
 }
 
 /// How many patches shoot in one step.
@@ -139,6 +147,8 @@ pub enum Correction {
     /// When the first sweep shows that less than two fifths of the light is lost per bounce.
     #[default]
     Auto,
+    /// The same, but rows of form factors are kept even where no surface reflects as much.
+    Always,
     /// Plain shooting, whatever the reflectance.
     Never,
 }
@@ -157,6 +167,7 @@ impl ShootingConfig {
             schedule: Schedule::Auto,
             overshoot: true,
             ambient: false,
+            needs: Needs::EVERYTHING,
         }
     }
 }

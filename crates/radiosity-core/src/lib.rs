@@ -8,7 +8,9 @@ mod energy;
 mod executor;
 pub mod matrix;
 pub mod mesh;
+mod needs;
 mod observer;
+pub mod plan;
 mod reconstruct;
 mod refine;
 mod shooting;
@@ -19,7 +21,9 @@ pub use config::{Correction, Exchange, MeshConfig, Schedule, ShootingConfig, Spl
 pub use energy::{Ledger, RgbSum, Sum};
 pub use executor::{Executor, Sequential};
 pub use mesh::{Element, Mesh, Node, Patch, ReceiverPoint, Root};
+pub use needs::{Channels, Needs};
 pub use observer::{Control, LevelReport, Observer, Stage, StepReport, Stopper};
+pub use plan::{Plan, PlanConfig};
 pub use refine::{
     Asked, Parts, Probe, Reached, RefineConfig, Refined, Stated, Statement, refine, resume,
 };

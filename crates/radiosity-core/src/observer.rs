@@ -17,6 +17,9 @@ pub struct StepReport {
     pub rays: u64,
     /// Form factors evaluated so far.
     pub form_factors: u64,
+    /// Directions followed to see where light ends up, at least: one for each of a patch's samples, and
+    /// one a receiver point.
+    pub directions: u64,
     /// Unshot power over emitted power, worst channel.
     pub unshot: f64,
 }

@@ -1,8 +1,9 @@
-//! `radiosity plan`: what a scene file holds, what looks wrong, and what a solve would use.
+//! `radiosity plan`: what a scene file holds, what looks wrong, and what a solve would leave out, and why.
 
 use std::time::Duration;
 
-use radiosity_core::{Census, Mesh};
+use radiosity_core::plan::Work;
+use radiosity_core::{Census, Correction, Mesh, Plan};
 use radiosity_par::Loop;
 use scene::{Rgb, Scene, Sides};
 use scene_import::Imported;
@@ -10,26 +11,45 @@ use scene_import::Imported;
 use crate::args::PlanArgs;
 use crate::commands::solve;
 use crate::failure::Failure;
+use crate::files;
 use crate::memory;
-use crate::pipeline::{self, Prepared};
-use crate::report::total_area;
+use crate::pipeline;
+use crate::report::{PlanReport, total_area};
 use crate::screen::{count, percent, result, seconds};
-use crate::settings;
+use crate::settings::{self, DEFAULT_CONVERGE, Goal};
 
 /// Reads the scene, builds what a solve would use, and prints both.
 pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
     let read = settings::read(&args.read)?;
     let work = settings::work(&args.work)?;
+    if args.error == 0.0 {
+        return Err(Failure::Usage("--error: expected more than 0, such as 1%".into()));
+    }
+    if let Some(path) = &args.report {
+        settings::check_report(path)?;
+        files::check_apart(Some(&args.scene), &[path])?;
+        files::check(path)?;
+    }
     let (file, imported) = solve::open(Some(&args.scene), &read)?;
     solve::check_factors(&file, &imported, &read)?;
     solve::check_paired(&imported.scene, &read)?;
     result(&format!("{file}: {}", imported.summary))?;
     say_scene(&imported)?;
-    let prepared = pipeline::prepare(&imported.scene, &work, Loop::default())?;
+    let goal = match args.work.elements {
+        Some(n) => Goal::Mesh { elements: Some(n), converge: DEFAULT_CONVERGE, stated: true },
+        None => Goal::Error(args.error),
+    };
+    let how = (goal, Correction::Auto);
+    let prepared = pipeline::prepare(&imported.scene, &work, &read, how, Loop::default())?;
     let config = work.mesh(imported.scene.triangles().len());
     let (mesh, census, time) = pipeline::mesh(&imported.scene, &prepared, &config, &read);
     solve::warn_of_coarseness(&imported.scene, &mesh);
-    say_plan(&imported.scene, &prepared, &mesh, &census, time)
+    say_mesh(&imported.scene, &mesh, &census, time)?;
+    say_decisions(&prepared.plan)?;
+    match &args.report {
+        Some(path) => PlanReport::of(&file, &imported, &prepared.plan).write(path),
+        None => Ok(()),
+    }
 }
 
 fn say_scene(imported: &Imported) -> Result<(), Failure> {
@@ -76,13 +96,67 @@ fn surfaces(scene: &Scene) -> String {
     format!("reflectance {low:.4} to {high:.4}, {both} two-sided triangles")
 }
 
-fn say_plan(
-    scene: &Scene,
-    prepared: &Prepared,
-    mesh: &Mesh,
-    census: &Census,
-    time: Duration,
-) -> Result<(), Failure> {
+/// What is decided, why, what that spares, and what it can do to the light.
+fn say_decisions(plan: &Plan) -> Result<(), Failure> {
+    result("")?;
+    for decision in &plan.decisions {
+        let name = decision.topic.name();
+        result(&format!("{name:<12}{}", decision.choice))?;
+        result(&format!("            why: {}", decision.why))?;
+        if decision.leaves_out {
+            if let Some(saved) = saving(&decision.saves) {
+                result(&format!("            saves: {saved}"))?;
+            }
+            result(&format!("            changes of the light: {}", decision.effect.text()))?;
+        }
+    }
+    result("")?;
+    result(&format!("foreseen    {}", amounts(&plan.planned)))?;
+    result(&format!("everything  {}", amounts(&plan.everything)))
+}
+
+/// Work that is foreseen to be spared, if it is any.
+fn saving(saved: &Work) -> Option<String> {
+    let all = [
+        (saved.form_factors, "form factors"),
+        (saved.segments, "segments"),
+        (saved.directions, "directions"),
+    ];
+    let mut parts: Vec<String> = all
+        .into_iter()
+        .filter(|(amount, _)| *amount >= 1.0)
+        .map(|(amount, of)| format!("{} {of}", rough(amount)))
+        .collect();
+    if saved.seconds > 0.0 {
+        parts.push(format!("about {} on one thread", seconds(saved.seconds)));
+    }
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+/// All work that is foreseen.
+fn amounts(work: &Work) -> String {
+    format!(
+        "{} elements, {} shots, {} form factors, {} segments, {} directions, about {} on one thread",
+        rough(work.elements),
+        rough(work.shots),
+        rough(work.form_factors),
+        rough(work.segments),
+        rough(work.directions),
+        seconds(work.seconds)
+    )
+}
+
+/// Two digits: nobody knows more.
+fn rough(amount: f64) -> String {
+    if amount < 1.0 {
+        return "0".into();
+    }
+    let unit = 10f64.powf((amount.log10().floor() - 1.0).max(0.0));
+    count(((amount / unit).round() * unit) as u64)
+}
+
+/// The mesh that a solve without refinement would have, and how open the scene is.
+fn say_mesh(scene: &Scene, mesh: &Mesh, census: &Census, time: Duration) -> Result<(), Failure> {
     let elements = mesh.elements().len();
     result(&format!(
         "mesh      {} elements in {} patches, {} receiver points, at most about {} ({})",
@@ -92,26 +166,12 @@ fn say_plan(
         memory::size(memory::foreseen(scene.triangles().len(), mesh.patches().len(), elements)),
         seconds(time.as_secs_f64())
     ))?;
-    result(&format!(
-        "occluder  {} over {} triangles, {} kB ({}); input triangles block, not elements",
-        prepared.occluder_name,
-        count(scene.triangles().len() as u64),
-        count((prepared.occluder_bytes as u64).div_ceil(1000)),
-        seconds(prepared.occluder_seconds)
-    ))?;
     let (escapes, backs) = mean_fate(mesh, census);
     result(&format!(
         "openness  {} of the directions from lit surfaces leave the scene, {} meet a back",
         percent(escapes),
         percent(backs)
-    ))?;
-    let pairs = mesh.patches().len() as u64 * mesh.points().len() as u64;
-    result(&format!(
-        "work      at most {} form factors and segments for each patch to shoot once; 1 to 5 \
-         such sweeps leave 0.1 % unshot",
-        count(pairs)
-    ))?;
-    result(&format!("threads   {}", prepared.threads()))
+    ))
 }
 
 /// Area means over the patches of the shares that escape and that meet backs.

@@ -44,7 +44,7 @@ pub(crate) fn bundled() -> Result<(), Failure> {
         keeping: settings::Keeping::default(),
         goal: Goal::Error(0.01),
         limits: settings::Limits::default(),
-        work: Work { elements: None, accel: AccelArg::Auto, threads: 0 },
+        work: Work { elements: None, accel: AccelArg::Auto, threads: None, everything: false },
         shooting: settings::Shooting::default(),
         read: Read {
             options: scene_import::Options::default(),
@@ -88,7 +88,14 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     if let Some(budget) = Budget::of(settings, &imported.scene) {
         budget.check()?;
     }
-    let prepared = pipeline::prepare(&imported.scene, &settings.work, settings.shooting.sharing)?;
+    let goal = (settings.goal, settings.shooting.correction);
+    let prepared = pipeline::prepare(
+        &imported.scene,
+        &settings.work,
+        &settings.read,
+        goal,
+        settings.shooting.sharing,
+    )?;
     let probes: Vec<Probe> = places.iter().map(probe).collect();
     let snapshots = Snapshots::of(settings, &imported.scene, &options);
     let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots)?;

@@ -25,10 +25,10 @@ pub(crate) struct Limits {
 }
 
 /// Stated error asked for when the command line does not say.
-pub(super) const DEFAULT_ERROR: f64 = 0.01;
+pub(crate) const DEFAULT_ERROR: f64 = 0.01;
 
 /// Unshot share on a fixed mesh when the command line does not say.
-pub(super) const DEFAULT_CONVERGE: f64 = 1e-3;
+pub(crate) const DEFAULT_CONVERGE: f64 = 1e-3;
 
 impl Goal {
     /// In the solver's terms, for a scene of so many triangles.

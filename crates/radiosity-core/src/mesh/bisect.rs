@@ -38,6 +38,8 @@ pub(super) struct Plan<'a> {
     pub(super) least_area: f64,
     /// So is one this many halvings below its root.
     pub(super) most_depth: u32,
+    /// Roots whose leaves are halved only for their neighbours' sake.
+    pub(super) whole: &'a [bool],
 }
 
 impl Forest {
@@ -85,9 +87,12 @@ impl<'a> Grower<'a> {
     fn new(forest: Forest, plan: &'a Plan) -> Self {
         let Forest { vertices, nodes, barriers } = forest;
         let mut state = vec![Growth { density: 1.0, depth: 0 }; nodes.len()];
+        for (state, _) in state.iter_mut().zip(plan.whole).filter(|(_, whole)| **whole) {
+            state.depth = u32::MAX;
+        }
         for (id, node) in nodes.iter().enumerate() {
             // Halves come after what was halved.
-            let depth = state[id].depth + 1;
+            let depth = state[id].depth.saturating_add(1);
             node.children.clone().for_each(|part| state[part as usize].depth = depth);
             if let (true, Some(density)) = (node.is_leaf(), plan.density) {
                 state[id].density = density[node.elements.start as usize];
@@ -176,7 +181,7 @@ impl<'a> Grower<'a> {
             ([middle, b, c], [mb, bc, mc], [true, false, true]),
         ] {
             self.nodes.push(Node::leaf(vertices, root));
-            self.state.push(Growth { density, depth: depth + 1 });
+            self.state.push(Growth { density, depth: depth.saturating_add(1) });
             // The other edge is in the queue already, for the leaf that this was.
             self.enter(self.nodes.len() as u32 - 1, own, new);
         }

@@ -20,10 +20,13 @@ impl Forest {
         let mut leaves = 0;
         let mut queue = BinaryHeap::new();
         let mut depths = vec![0u32; self.nodes.len()];
+        for (depth, _) in depths.iter_mut().zip(plan.whole).filter(|(_, whole)| **whole) {
+            *depth = u32::MAX;
+        }
         for id in 0..self.nodes.len() {
             let node = &self.nodes[id];
             for part in node.children.clone() {
-                depths[part as usize] = depths[id] + 1;
+                depths[part as usize] = depths[id].saturating_add(1);
             }
             if node.is_leaf() {
                 let density = plan.density.map_or(1.0, |d| d[node.elements.start as usize]);
@@ -43,7 +46,7 @@ impl Forest {
             for vertices in [[a, b, middle], [b, c, middle], [c, a, middle]] {
                 self.nodes.push(Node::leaf(vertices, root));
                 let part = self.nodes.len() as u32 - 1;
-                self.enter(plan, &mut queue, part, density.0, depth + 1);
+                self.enter(plan, &mut queue, part, density.0, depth.saturating_add(1));
             }
             leaves += 2;
         }

@@ -18,12 +18,14 @@ use scene::{Face, Rgb, Scene, TriangleId, VertexId};
 
 use crate::config::{MeshConfig, Split};
 use crate::executor::{Executor, Sequential};
+use crate::needs;
 use bisect::{Forest, Plan};
 use cut::Edge;
 use grade::Grade;
 pub(crate) use patch::bounding;
 pub use points::ReceiverPoint;
 use weld::Roots;
+pub(crate) use weld::extent as scene_extent;
 
 /// A root: one lit side of an input triangle, or of a piece of one that contacts cut, with what
 /// its elements have in common.
@@ -197,7 +199,11 @@ impl Mesh {
         executor: &E,
     ) -> Self {
         let MeshConfig { least_area, most_depth, .. } = *config;
-        let plan = Plan { grade, density, least_area, most_depth };
+        let whole = match config.split_black {
+            true => Vec::new(),
+            false => unlit(&roots),
+        };
+        let plan = Plan { grade, density, least_area, most_depth, whole: &whole };
         let Forest { vertices, nodes, barriers } = match (density, config.split) {
             (Some(_), Split::Centroid) => forest.cut_at_centroids(&plan, config.elements),
             _ => forest.grow(&plan, config.elements),
@@ -274,6 +280,12 @@ impl Mesh {
     pub(crate) fn corners(&self, vertices: [VertexId; 3]) -> [DVec3; 3] {
         vertices.map(|v| self.vertices[v.index()])
     }
+}
+
+/// Which roots neither emit nor reflect any of the light there is.
+fn unlit(roots: &[Root]) -> Vec<bool> {
+    let black = needs::black(roots);
+    roots.iter().zip(black).map(|(root, black)| black && root.emittance == Rgb::ZERO).collect()
 }
 
 pub(crate) fn triangle_area([a, b, c]: [DVec3; 3]) -> f64 {

@@ -147,7 +147,7 @@ fn turned([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
 }
 
 /// The diagonal of the bounds of all triangles that take part.
-pub(super) fn extent(scene: &Scene) -> f64 {
+pub(crate) fn extent(scene: &Scene) -> f64 {
     let taking_part = scene.ids().map(|id| scene.corners(id)).filter(|p| unit_normal(*p).is_some());
     let bounds = taking_part.flatten().fold(None, |bounds: Option<(DVec3, DVec3)>, p| {
         let (low, high) = bounds.unwrap_or((p, p));

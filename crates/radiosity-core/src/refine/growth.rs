@@ -90,6 +90,7 @@ impl<E: Executor> Setting<'_, E> {
             least_area,
             most_depth,
             split,
+            split_black: self.splits_black(),
             ..MeshConfig::with_elements(growth.elements)
         };
         match (&growth.density, before) {
@@ -98,6 +99,18 @@ impl<E: Executor> Setting<'_, E> {
             }
             _ => Mesh::from_scene_with(self.scene, &config, self.executor),
         }
+    }
+
+    /// The mesh of the fewest elements that there is.
+    pub(super) fn least(&self) -> MeshConfig {
+        let split_black = self.splits_black();
+        MeshConfig { split_black, ..MeshConfig::with_elements(1) }
+    }
+
+    /// Whether surfaces that reflect nothing are split: where a number of elements is asked for, they
+    /// have their share of it.
+    fn splits_black(&self) -> bool {
+        self.config.needs.black || !matches!(self.refining.asked, Asked::Error(_))
     }
 
     /// Whether levels follow the light.

@@ -13,7 +13,6 @@ use super::statement::{
 };
 use super::{Asked, Reached, Refined};
 use crate::checkpoint::Kept;
-use crate::config::MeshConfig;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
 use crate::observer::{Control, LevelReport, Observer, Stage, StepReport, Stopper};
@@ -155,7 +154,7 @@ impl<'a, E: Executor> Ladder<'a, E> {
             // Two levels below the asked one, as far as the scene's own pieces allow.
             Asked::Elements(n) => {
                 let n = n.min(most);
-                let least = Mesh::from_scene(self.setting.scene, &MeshConfig::with_elements(1));
+                let least = Mesh::from_scene(self.setting.scene, &self.setting.least());
                 let least = least.elements().len();
                 let start = n as f64 / (GROWTH * GROWTH);
                 let coarser = n as f64 / GROWTH;
@@ -283,6 +282,8 @@ impl<'a, E: Executor> Ladder<'a, E> {
         let (sampled, Level { iteration, probes, .. }) = (&rung.sampled, &rung.level);
         let [triangles, points, places] = match rung.level.unseen {
             true => [Measured::UNKNOWN; 3],
+            // A balance that is sampled in part says nothing.
+            false if !self.setting.config.needs.black => rung.mesh_errors,
             false => rung.mesh_errors.map(|e| e.at_least(unbalanced(&rung.level.ledger))),
         };
         Some(Statement {
@@ -378,6 +379,7 @@ impl StepReport {
             shots: self.shots + later.shots,
             rays: self.rays + later.rays,
             form_factors: self.form_factors + later.form_factors,
+            directions: self.directions + later.directions,
             unshot: later.unshot,
         }
     }

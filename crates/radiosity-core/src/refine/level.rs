@@ -80,8 +80,12 @@ impl<E: Executor> Setting<'_, E> {
         let (scene, executor) = (self.scene, self.executor);
         let (stopper, exchange) = (observer.stopper(), self.config.exchange);
         observer.stage(Stage::Census);
-        let census =
-            Census::take_unless(scene, &mesh, self.bvh, exchange, executor, stopper.as_ref());
+        let census = match self.config.needs.census {
+            true => {
+                Census::take_unless(scene, &mesh, self.bvh, exchange, executor, stopper.as_ref())
+            }
+            false => Some(Census::closed()),
+        };
         let stopped = census.is_none();
         let census = census.unwrap_or_default();
         observer.stage(Stage::Select);

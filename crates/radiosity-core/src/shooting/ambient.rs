@@ -18,7 +18,7 @@ use crate::mesh::Mesh;
 
 /// A first sweep that loses at least this share of the light per bounce goes on without
 /// corrections: plain shooting needs fewer than 10 sweeps then.
-pub(super) const LOSS_OF_PLAIN: f64 = 0.4;
+pub(crate) const LOSS_OF_PLAIN: f64 = 0.4;
 
 /// Corrections per sweep.
 pub(super) const PER_SWEEP: u64 = 8;

@@ -55,8 +55,10 @@ impl<E: Executor> Shooting<'_, E> {
             return;
         }
         let own = &ambient.rows[..self.mesh.points.len()];
-        let least = own.iter().copied().fold(f64::INFINITY, f64::min);
-        self.raw_rows = Some([least, own.iter().copied().fold(0.0, f64::max)]);
+        // Points that receive nothing have no row.
+        let some = self.blocks.left_out > 0;
+        let own = || own.iter().copied().filter(|row| !some || *row > 0.0);
+        self.raw_rows = Some([own().fold(f64::INFINITY, f64::min), own().fold(0.0, f64::max)]);
         let (factors, gained) = ambient.close(self.mesh, &mut self.state);
         self.account.book(gained * -1.0, Some(Lost::default()));
         self.closure = Some(factors);

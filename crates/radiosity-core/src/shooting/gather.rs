@@ -8,6 +8,7 @@ use super::transfer::{Receivers, Scratch, Shot};
 use super::{Shooting, sides};
 use crate::executor::Executor;
 use crate::mesh::ReceiverPoint;
+use crate::needs::Needs;
 use crate::observer::Stopper;
 
 /// Points per run of an executor: few, since there are few points.
@@ -55,7 +56,10 @@ impl<E: Executor> Shooting<'_, E> {
             .zip(slots.chunks_mut(RUN))
             .map(|(points, slots)| Run { points, slots, done: false })
             .collect();
-        self.executor.for_each(&mut runs, |run| self.gather_run(run, &shone, &detail, stopper));
+        self.executor.for_each(&mut runs, |run| match self.config.needs.channels.count() {
+            1 => self.gather_run::<1>(run, &shone, &detail, stopper),
+            _ => self.gather_run::<3>(run, &shone, &detail, stopper),
+        });
         let done = runs.iter().all(|run| run.done);
         done.then_some(slots)
     }
@@ -72,12 +76,19 @@ impl<E: Executor> Shooting<'_, E> {
             .collect()
     }
 
-    fn gather_run(&self, run: &mut Run, shone: &[Rgb], detail: &Detail, stopper: Option<&Stopper>) {
+    fn gather_run<const N: usize>(
+        &self,
+        run: &mut Run,
+        shone: &[Rgb],
+        detail: &Detail,
+        stopper: Option<&Stopper>,
+    ) {
         let (mesh, exchange) = (self.mesh, self.config.exchange);
         let receivers: Vec<ReceiverPoint> =
             run.points.iter().map(|&p| mesh.points[p as usize]).collect();
-        let mut arriving = vec![Rgb::ZERO; receivers.len()];
+        let mut arriving = vec![[0.0; N]; receivers.len()];
         let mut seen = vec![0.0; receivers.len()];
+        let needs = Needs { singles: true, ..self.config.needs };
         let (mut scratch, mut cells): (Scratch, Vec<Cell>) = Default::default();
         let mut totals = vec![Rgb::ZERO; receivers.len()];
         for patch in &mesh.patches {
@@ -85,10 +96,12 @@ impl<E: Executor> Shooting<'_, E> {
                 return;
             }
             cell::cells_of(mesh, self.census, patch, shone, detail.quarterings, &mut cells);
-            let shot = Shot::new(self.occluder, &cells, mesh, patch, exchange, detail, self.mean);
-            let points = Receivers { points: &receivers, shares: None };
+            let (occluder, mean) = (self.occluder, self.mean);
+            let shot = Shot::new(occluder, &cells, mesh, patch, exchange, &needs, detail, mean);
+            let points = Receivers { points: &receivers, shares: None, blocks: None };
+            arriving.fill([0.0; N]);
             shot.light(points, &mut arriving, Some(&mut seen), &mut scratch);
-            totals.iter_mut().zip(&arriving).for_each(|(t, a)| *t += *a);
+            totals.iter_mut().zip(&arriving).for_each(|(t, a)| *t += needs.channels.spread(*a));
         }
         for (i, (slot, &p)) in run.slots.iter_mut().zip(run.points).enumerate() {
             let closed = self.closure.is_some() && seen[i] > 0.0;

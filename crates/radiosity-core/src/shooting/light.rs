@@ -2,8 +2,6 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use scene::Rgb;
-
 use super::Shooting;
 use super::detail::Detail;
 use super::near::Near;
@@ -13,7 +11,7 @@ use crate::executor::Executor;
 use crate::observer::Stopper;
 
 /// Receivers per run: their segments from one cell form a batch.
-const RUN: usize = 512;
+pub(super) const RUN: usize = 512;
 
 impl<E: Executor> Shooting<'_, E> {
     /// Lays out the first `shooters`: their cells, and the points in elements near them.
@@ -24,7 +22,8 @@ impl<E: Executor> Shooting<'_, E> {
             state: &self.state,
             config: &self.config,
             mean: self.mean,
-            receivers: &self.receivers,
+            receivers: self.receivers.len(),
+            black: &self.black,
         };
         let shooters = &mut self.shooters[..shooters];
         self.executor.for_each(shooters, |shooter| shooter.prepare(&preparation));
@@ -33,31 +32,37 @@ impl<E: Executor> Shooting<'_, E> {
     /// Lights every receiver point, every probe and the inside of near elements by each of the
     /// first `shooters`; `false` if it was stopped on the way: then nothing counts.
     pub(super) fn transfer(&mut self, shooters: usize, stopper: Option<&Stopper>) -> bool {
-        let (mesh, exchange) = (self.mesh, self.config.exchange);
+        let (mesh, exchange, needs) = (self.mesh, self.config.exchange, self.config.needs);
+        let run = RUN * needs.channels.count();
+        let in_blocks = (!needs.singles || !needs.black).then_some(&self.blocks);
         let shooters = &mut self.shooters[..shooters];
         let detail = Detail::of(&self.config);
         let mut shots = Vec::with_capacity(shooters.len());
         let mut slots = Vec::with_capacity(shooters.len());
-        for Shooter { patch, cells, near, arriving, seen, learnt } in shooters {
+        for Shooter { patch, cells, near, arriving, lit, seen, learnt } in shooters {
             let patch = &mesh.patches[*patch];
-            shots.push(Shot::new(self.occluder, cells, mesh, patch, exchange, &detail, self.mean));
-            slots.push((near, arriving, learnt.then_some(seen)));
+            let (occluder, mean) = (self.occluder, self.mean);
+            let shot = Shot::new(occluder, cells, mesh, patch, exchange, &needs, &detail, mean);
+            shots.push(Shot { space: self.blocks.space_of(mesh, &patch.elements), ..shot });
+            slots.push((near, arriving, lit, learnt.then_some(seen)));
         }
         let mut runs: Vec<Run> = Vec::new();
-        for (shot, (near, arriving, seen)) in shots.iter().zip(slots) {
+        for (shot, (near, arriving, lit, seen)) in shots.iter().zip(slots) {
             let mut seen = seen.map(|s| s.chunks_mut(RUN));
             let mut closures = self.closure.as_deref().map(|c| c.chunks(RUN));
-            let slots = self.receivers.chunks(RUN).zip(arriving.chunks_mut(RUN));
-            runs.extend(slots.map(|(points, arriving)| Run {
-                receivers: Receivers { points, shares: None },
+            let blocks_of = |i: usize| in_blocks.map(|blocks| (i * RUN, blocks.of_run(i)));
+            let slots = self.receivers.chunks(RUN).zip(arriving.chunks_mut(run)).zip(lit);
+            runs.extend(slots.enumerate().map(|(i, ((points, arriving), lit))| Run {
+                receivers: Receivers { points, shares: None, blocks: blocks_of(i) },
                 seen: seen.as_mut().and_then(Iterator::next),
                 closure: closures.as_mut().and_then(Iterator::next),
+                lit: Some(lit),
                 ..Run::new(shot, arriving)
             }));
             let Near { points, weights, arriving, .. } = near;
-            let slots = points.chunks(RUN).zip(weights.chunks(RUN)).zip(arriving.chunks_mut(RUN));
+            let slots = points.chunks(RUN).zip(weights.chunks(RUN)).zip(arriving.chunks_mut(run));
             runs.extend(slots.map(|((points, shares), arriving)| Run {
-                receivers: Receivers { points, shares: Some(shares) },
+                receivers: Receivers { points, shares: Some(shares), blocks: None },
                 ..Run::new(shot, arriving)
             }));
         }
@@ -98,7 +103,9 @@ impl Lent {
 struct Run<'a> {
     shot: &'a Shot<'a>,
     receivers: Receivers<'a>,
-    arriving: &'a mut [Rgb],
+    arriving: &'a mut [f64],
+    /// Whether anything is in these slots.
+    lit: Option<&'a mut bool>,
     /// Where to sum the form factors to what is visible.
     seen: Option<&'a mut [f64]>,
     /// Factors on what arrives.
@@ -108,11 +115,12 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(shot: &'a Shot<'a>, arriving: &'a mut [Rgb]) -> Self {
+    fn new(shot: &'a Shot<'a>, arriving: &'a mut [f64]) -> Self {
         Self {
             shot,
-            receivers: Receivers { points: &[], shares: None },
+            receivers: Receivers { points: &[], shares: None, blocks: None },
             arriving,
+            lit: None,
             seen: None,
             closure: None,
             counts: Counts::default(),
@@ -121,11 +129,27 @@ impl<'a> Run<'a> {
     }
 
     fn light(&mut self, scratch: &mut Scratch) {
-        let seen = self.seen.as_deref_mut();
-        self.counts = self.shot.light(self.receivers, self.arriving, seen, scratch);
-        if let Some(closure) = self.closure {
-            self.arriving.iter_mut().zip(closure).for_each(|(a, k)| *a = *a * *k);
+        match self.shot.channels.count() {
+            1 => self.light_channels::<1>(scratch),
+            _ => self.light_channels::<3>(scratch),
         }
         self.done = true;
+    }
+
+    fn light_channels<const N: usize>(&mut self, scratch: &mut Scratch) {
+        if self.lit.as_deref_mut().is_some_and(std::mem::take) {
+            self.arriving.fill(0.0);
+        }
+        let seen = self.seen.as_deref_mut();
+        let arriving = self.arriving.as_chunks_mut::<N>().0;
+        self.counts = self.shot.light(self.receivers, arriving, seen, scratch);
+        if let Some(lit) = &mut self.lit {
+            **lit = self.counts.form_factors > 0;
+        }
+        if let Some(closure) = self.closure {
+            for (arriving, k) in arriving.iter_mut().zip(closure) {
+                arriving.iter_mut().for_each(|a| *a *= k);
+            }
+        }
     }
 }

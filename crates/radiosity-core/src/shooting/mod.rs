@@ -8,6 +8,7 @@
 
 mod account;
 mod ambient;
+mod blocks;
 mod cell;
 mod commit;
 mod correct;
@@ -17,12 +18,14 @@ mod light;
 mod near;
 mod overshoot;
 mod progress;
+mod reach;
 mod remaining;
 mod select;
 mod shooter;
 mod shown;
 mod state;
 mod stop;
+mod survey;
 mod transfer;
 
 use accel::Occluder;
@@ -34,9 +37,13 @@ use crate::config::{Correction, Exchange, ShootingConfig};
 use crate::energy::{RgbSum, Sum};
 use crate::executor::Executor;
 use crate::mesh::{Mesh, ReceiverPoint};
+use crate::needs;
 use crate::observer::{Control, Observer, Stage, StepReport, Stopper};
 use account::Account;
-use ambient::{Ambient, LOSS_OF_PLAIN, Phase};
+pub(crate) use ambient::LOSS_OF_PLAIN;
+use ambient::{Ambient, Phase};
+use blocks::Blocks;
+use commit::Brought;
 pub use gather::Gathered;
 use light::Lent;
 use overshoot::Foresight;
@@ -46,6 +53,7 @@ use shooter::Shooter;
 use state::State;
 use stop::STALL_FALL;
 pub use stop::{DIVERGED, StopReason};
+pub(crate) use survey::{Survey, survey};
 use transfer::Counts;
 pub(crate) use transfer::SEGMENT_LIFT;
 
@@ -62,6 +70,9 @@ pub struct Shooting<'a, E: Executor> {
     completing: bool,
     /// The mesh's points, then the probes.
     receivers: Vec<ReceiverPoint>,
+    blocks: Blocks,
+    /// Roots that receive nothing, since they would reflect none of it; empty if all receive.
+    black: Vec<bool>,
     state: State,
     /// Mean irradiance, if no light escaped: emitted power over Σ A (1 − ρ).
     mean: Rgb,
@@ -121,6 +132,8 @@ impl<'a, E: Executor> Shooting<'a, E> {
             absorption.add((Rgb::splat(1.0) - root.reflectance) * element.area);
             area.add(element.area);
         }
+        let lift = SEGMENT_LIFT * mesh.extent;
+        let blocks = Blocks::of(mesh, &receivers, occluder, &config.needs, lift);
         let emitted = emitted.value() * sides(config.exchange);
         let absorption = absorption.value();
         Self {
@@ -137,6 +150,8 @@ impl<'a, E: Executor> Shooting<'a, E> {
             tightened: 0,
             completing: false,
             receivers,
+            blocks,
+            black: if config.needs.black { Vec::new() } else { needs::black(&mesh.roots) },
             account: Account::default(),
             shots: 0,
             counts: Counts::default(),
@@ -263,6 +278,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
             shots: self.shots,
             rays: self.counts.rays,
             form_factors: self.counts.form_factors,
+            directions: self.census.directions(),
             unshot: self.unshot_share(),
         }
     }
@@ -316,13 +332,21 @@ impl<'a, E: Executor> Shooting<'a, E> {
                 let lost = self.census.lost(patch, of_patch, &self.state.unshot);
                 sampled.wrong_side += lost.wrong_side;
                 sampled.escaped += lost.escaped;
+                sampled.black += self.black_share(lost.black);
             }
         }
         self.settle(patches, &owed);
         let shooters = &self.shooters[..patches.len()];
-        let closure = self.closure.as_deref();
         observer.stage(Stage::Commit);
-        commit::commit(self.mesh, shooters, closure, &mut self.state, self.executor);
+        let brought = Brought {
+            mesh: self.mesh,
+            shooters,
+            closure: self.closure.as_deref(),
+            blocks: &self.blocks,
+            channels: self.config.needs.channels,
+            black: &self.black,
+        };
+        commit::commit(brought, &mut self.state, self.executor);
         observer.stage(Stage::Select);
         if let Some(ambient) = &mut self.ambient {
             for shooter in shooters.iter().filter(|s| s.learnt) {
@@ -349,8 +373,12 @@ impl<'a, E: Executor> Shooting<'a, E> {
 /// Whether corrections may be worth their while: some surface reflects more than plain shooting
 /// is good for.
 fn stiff(mesh: &Mesh, config: &ShootingConfig) -> bool {
-    let used = mesh.elements.iter().map(|element| mesh.root_of(element).reflectance.max_channel());
-    config.correction == Correction::Auto && used.fold(0.0, f64::max) > 1.0 - LOSS_OF_PLAIN
+    let used = || mesh.roots.iter().map(|root| root.reflectance.max_channel());
+    match config.correction {
+        Correction::Never => false,
+        Correction::Always => true,
+        Correction::Auto => used().fold(0.0, f64::max) > 1.0 - LOSS_OF_PLAIN,
+    }
 }
 
 /// What light there is on average, if none escaped: emitted power over Σ A (1 − ρ). Where

@@ -8,8 +8,9 @@
 //! it sees sum to 1, and so do the means of corners; a mixture of two rules does not, and at
 //! reflectance ρ a row that is off by δ is off by δ/(1 − ρ) in the light.
 
+use std::ops::Range;
+
 use glam::DVec3;
-use scene::Rgb;
 
 use crate::config::Exchange;
 use crate::mesh::{Element, Mesh, Patch, ReceiverPoint, bounding};
@@ -51,8 +52,8 @@ pub(super) struct Near {
     pub(super) points: Vec<ReceiverPoint>,
     /// Share of its element that each point stands for.
     pub(super) weights: Vec<f64>,
-    /// Irradiance arriving at each point.
-    pub(super) arriving: Vec<Rgb>,
+    /// Irradiance arriving at each point, in each channel that is computed.
+    pub(super) arriving: Vec<f64>,
 }
 
 impl Near {
@@ -60,7 +61,15 @@ impl Near {
     ///
     /// `light` is the shooter's unshot exitance over what [`bright`](crate::ShootingConfig::bright)
     /// asks for: at 1 and below, nothing is near, and nothing is looked for.
-    pub(super) fn find(&mut self, mesh: &Mesh, shooter: &Patch, exchange: Exchange, light: f64) {
+    pub(super) fn find(
+        &mut self,
+        mesh: &Mesh,
+        shooter: &Patch,
+        exchange: Exchange,
+        light: f64,
+        channels: usize,
+        black: &[bool],
+    ) {
         self.elements.clear();
         self.points.clear();
         self.weights.clear();
@@ -82,28 +91,39 @@ impl Near {
             if patch.centroid.distance_squared(shooter.centroid) > reach * reach {
                 continue;
             }
+            let root = mesh.nodes[patch.node as usize].root as usize;
+            if black.get(root).is_some_and(|black| *black) {
+                continue;
+            }
             for e in patch.elements.clone() {
                 self.consider(mesh, &source, e);
             }
         }
-        self.arriving.resize(self.points.len(), Rgb::ZERO);
+        self.arriving.resize(self.points.len() * channels, 0.0);
+    }
+
+    /// Whether any of these elements is near.
+    pub(super) fn any_of(&self, elements: &Range<u32>) -> bool {
+        let at = self.elements.partition_point(|n| n.element < elements.start);
+        self.elements.get(at).is_some_and(|near| near.element < elements.end)
     }
 
     /// The mean irradiance over a near element, or `None` if it is not near.
-    pub(super) fn mean(&self, element: u32) -> Option<Rgb> {
+    pub(super) fn mean<const N: usize>(&self, element: u32) -> Option<[f64; N]> {
         if self.elements.is_empty() {
             return None;
         }
         let at = self.elements.partition_point(|n| n.element < element);
         let near = self.elements.get(at).filter(|n| n.element == element)?;
         let range = near.first as usize..near.last as usize;
-        Some(
-            self.weights[range.clone()]
-                .iter()
-                .zip(&self.arriving[range])
-                .map(|(w, a)| *a * *w)
-                .sum(),
-        )
+        let mut mean = [0.0; N];
+        let arriving = &self.arriving.as_chunks::<N>().0[range.clone()];
+        for (weight, arriving) in self.weights[range].iter().zip(arriving) {
+            for (mean, arriving) in mean.iter_mut().zip(arriving) {
+                *mean += arriving * weight;
+            }
+        }
+        Some(mean)
     }
 
     fn consider(&mut self, mesh: &Mesh, source: &Source, id: u32) {

@@ -71,7 +71,7 @@ impl<E: Executor> Shooting<'_, E> {
         }
         let (all, arrives) = (self.net(), self.account.arriving_share());
         let mut owed = Vec::new();
-        let mean = self.account.received.value() / self.foresight.area;
+        let mean = self.account.arrived() / self.foresight.area;
         for &patch in patches {
             let own = self.state.patch_net[patch];
             let even = self.foresight.irradiance(all - own, arrives);

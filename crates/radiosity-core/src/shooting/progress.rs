@@ -48,7 +48,7 @@ pub(crate) struct Course {
 }
 
 record!(Course { unshot, tightened, completing });
-record!(Account { escaped, sampled_escape, wrong_side, received });
+record!(Account { escaped, sampled_escape, wrong_side, received, black });
 record!(Counts { rays, form_factors });
 tags!(StopReason { Converged, NoLight, ShotLimit, Stopped, Stalled, Diverged, Singular });
 

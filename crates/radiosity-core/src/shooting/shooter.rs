@@ -4,11 +4,12 @@ use scene::Rgb;
 
 use super::cell::{self, Cell};
 use super::detail::Detail;
+use super::light::RUN;
 use super::near::Near;
 use super::state::State;
 use crate::census::Census;
 use crate::config::ShootingConfig;
-use crate::mesh::{Mesh, ReceiverPoint};
+use crate::mesh::Mesh;
 
 /// One shooter of a step; its buffers are kept from step to step.
 #[derive(Default)]
@@ -17,8 +18,10 @@ pub(super) struct Shooter {
     /// The patch in pieces, with their unshot exitances.
     pub(super) cells: Vec<Cell>,
     pub(super) near: Near,
-    /// Irradiance that it brings to each receiver.
-    pub(super) arriving: Vec<Rgb>,
+    /// Irradiance that it brings to each receiver, in each channel that is computed.
+    pub(super) arriving: Vec<f64>,
+    /// Whether it brings any to each run of receivers; the slots of others are 0.
+    pub(super) lit: Vec<bool>,
     /// Whether its form factors to all receivers are summed, too.
     pub(super) learnt: bool,
     /// Those sums, if so.
@@ -33,22 +36,28 @@ pub(super) struct Preparation<'a> {
     pub(super) config: &'a ShootingConfig,
     /// The scene's mean irradiance.
     pub(super) mean: Rgb,
-    pub(super) receivers: &'a [ReceiverPoint],
+    /// How many receivers there are.
+    pub(super) receivers: usize,
+    /// Roots that receive nothing; none if absent.
+    pub(super) black: &'a [bool],
 }
 
 impl Shooter {
     /// Lays out the cells, finds the near elements and clears the slots.
     pub(super) fn prepare(&mut self, with: &Preparation) {
-        let Preparation { mesh, census, state, config, mean, receivers } = *with;
+        let Preparation { mesh, census, state, config, mean, receivers, black } = *with;
         let patch = &mesh.patches[self.patch];
         let quarterings = Detail::of(config).quarterings;
         cell::cells_of(mesh, census, patch, &state.unshot, quarterings, &mut self.cells);
         let brightness = self.cells[0].unshot.abs().share_of(mean).max_channel();
-        self.near.find(mesh, patch, config.exchange, brightness / config.bright);
-        self.arriving.resize(receivers.len(), Rgb::ZERO);
+        let channels = config.needs.channels.count();
+        let light = brightness / config.bright;
+        self.near.find(mesh, patch, config.exchange, light, channels, black);
+        self.arriving.resize(receivers * channels, 0.0);
+        self.lit.resize(receivers.div_ceil(RUN), false);
         self.seen.clear();
         if self.learnt {
-            self.seen.resize(receivers.len(), 0.0);
+            self.seen.resize(receivers, 0.0);
         }
     }
 }

@@ -4,15 +4,18 @@
 //! demand; form factor first, then, if anything arrives, one segment per cell. Points are
 //! taken in runs, so that the segments of one cell share an origin.
 
-use accel::{Occluder, Segment, Target};
+use accel::{Occluder, Outlook, Segment, Target};
 use form_factor::{Rule, centroid_kernel, lambert, three_point_kernel};
 use glam::DVec3;
 use scene::Rgb;
 
+use super::blocks::Block;
 use super::cell::{Cell, ORIGINS, Parts};
 use super::detail::Detail;
+use super::reach::Reach;
 use crate::config::Exchange;
 use crate::mesh::{Mesh, Patch, ReceiverPoint};
+use crate::needs::{Channels, Needs};
 
 /// Segments start and end this far above their surfaces, as a share of the scene's extent:
 /// 80 ulps of f32 coordinates, and less than the thinnest gap worth modelling.
@@ -22,12 +25,23 @@ pub(crate) const SEGMENT_LIFT: f64 = 5e-6;
 /// in it, and gets nothing; nor does one whose own plane the shooter does not rise above: points of the shooter itself and of its coplanar neighbours come
 /// out at rounding errors, up to 1e-10 of the extent for scenes a million extents from the
 /// origin, and a form factor of 1/2 must not hang on those.
-const IN_PLANE: f64 = 1e-9;
+pub(super) const IN_PLANE: f64 = 1e-9;
 
 /// What all receivers of one shot have in common.
 pub(super) struct Shot<'a> {
     pub(super) occluder: &'a dyn Occluder,
     pub(super) cells: &'a [Cell],
+    /// Whether something may block its light.
+    pub(super) segments: bool,
+    /// Whether receivers are looked at one by one.
+    pub(super) singles: bool,
+    pub(super) channels: Channels,
+    /// What is known of many segments at once.
+    pub(super) outlook: Option<Outlook<'a>>,
+    /// The sealed space it lies in, if that is known.
+    pub(super) space: Option<u64>,
+    /// The shooter's corners.
+    pub(super) corners: [DVec3; 3],
     /// Unit normal of the shooter's lit side.
     pub(super) normal: DVec3,
     /// The shooter's input triangle.
@@ -45,18 +59,29 @@ pub(super) struct Shot<'a> {
 impl<'a> Shot<'a> {
     /// A shot of a patch whose cells are laid out in `cells`; `mean` is the scene's mean
     /// irradiance.
+    #[expect(clippy::too_many_arguments, reason = "each is a fact of its own")]
     pub(super) fn new(
         occluder: &'a dyn Occluder,
         cells: &'a [Cell],
         mesh: &Mesh,
         patch: &Patch,
         exchange: Exchange,
+        needs: &Needs,
         detail: &Detail,
         mean: Rgb,
     ) -> Self {
-        let root = &mesh.roots[mesh.nodes[patch.node as usize].root as usize];
+        let node = &mesh.nodes[patch.node as usize];
+        let root = &mesh.roots[node.root as usize];
+        let corners = mesh.corners(node.vertices);
+        let looks = needs.segments && !needs.singles;
         Self {
             occluder,
+            segments: needs.segments,
+            singles: needs.singles,
+            channels: needs.channels,
+            outlook: if looks { occluder.look_from(corners) } else { None },
+            space: None,
+            corners,
             cells,
             normal: root.normal,
             triangle: root.triangle.0,
@@ -76,6 +101,8 @@ pub(super) struct Receivers<'a> {
     /// Share of an element that each stands for; all of it if absent. A point that stands
     /// for little needs little care: its neighbours see the shooter from elsewhere.
     pub(super) shares: Option<&'a [f64]>,
+    /// The number of the first, and the blocks that light may reach; all, if absent.
+    pub(super) blocks: Option<(usize, &'a [Block])>,
 }
 
 impl Receivers<'_> {
@@ -96,6 +123,8 @@ pub(super) struct Counts {
 pub(super) struct Scratch {
     /// A stack of runs of receivers that wait for finer cells.
     waiting: Vec<u32>,
+    /// Receivers that nothing can hide.
+    open: Vec<u32>,
     /// Receivers of the present cell by the place their segments start from, each with the
     /// form factor that visibility decides on.
     lit: [Vec<(u32, f64)>; ORIGINS],
@@ -104,22 +133,51 @@ pub(super) struct Scratch {
 }
 
 impl Shot<'_> {
-    /// Writes the irradiance that reaches each of `receivers` into `arriving`, and adds the
-    /// form factors to all that is visible of the shooter to `seen`, if asked.
-    pub(super) fn light(
+    /// Adds the irradiance that reaches each of `receivers` to `arriving`, and the form factors to
+    /// all that is visible of the shooter to `seen`, if asked.
+    pub(super) fn light<const N: usize>(
         &self,
         receivers: Receivers,
-        arriving: &mut [Rgb],
+        arriving: &mut [[f64; N]],
         seen: Option<&mut [f64]>,
         scratch: &mut Scratch,
     ) -> Counts {
-        arriving.fill(Rgb::ZERO);
-        scratch.waiting.clear();
-        scratch.waiting.extend(0..receivers.points.len() as u32);
-        let mut run =
-            Run { shot: self, receivers, arriving, seen, scratch, counts: Counts::default() };
+        self.sort_out(&receivers, scratch);
+        let mut run = Run {
+            shot: self,
+            receivers,
+            arriving,
+            seen,
+            scratch,
+            segments: self.segments,
+            counts: Counts::default(),
+        };
         run.descend(&self.cells[0], 0);
+        if !run.scratch.open.is_empty() {
+            run.segments = false;
+            std::mem::swap(&mut run.scratch.waiting, &mut run.scratch.open);
+            run.descend(&self.cells[0], 0);
+        }
         run.counts
+    }
+
+    /// Lets those receivers wait that light may reach, and sets apart those that nothing can hide.
+    fn sort_out(&self, receivers: &Receivers, scratch: &mut Scratch) {
+        scratch.waiting.clear();
+        scratch.open.clear();
+        let Some((first, blocks)) = receivers.blocks else {
+            scratch.waiting.extend(0..receivers.points.len() as u32);
+            return;
+        };
+        for block in blocks {
+            let all = block.receivers.start - first as u32..block.receivers.end - first as u32;
+            match self.reach(block) {
+                Reach::Behind | Reach::Apart | Reach::Hidden => {}
+                // Where nothing is asked for, there is but one way to go.
+                Reach::Open if self.segments => scratch.open.extend(all),
+                Reach::Open | Reach::Asked => scratch.waiting.extend(all),
+            }
+        }
     }
 
     /// Length by which segments keep off their surfaces.
@@ -193,20 +251,25 @@ impl Shot<'_> {
 }
 
 /// One run of receivers on its way down the cells.
-struct Run<'a> {
+struct Run<'a, const N: usize> {
     shot: &'a Shot<'a>,
     receivers: Receivers<'a>,
-    arriving: &'a mut [Rgb],
+    arriving: &'a mut [[f64; N]],
     seen: Option<&'a mut [f64]>,
     scratch: &'a mut Scratch,
+    /// Whether something may lie between.
+    segments: bool,
     counts: Counts,
 }
 
-impl Run<'_> {
+impl<const N: usize> Run<'_, N> {
     /// Serves the receivers waiting from `first` on, by this cell or by parts of it.
     fn descend(&mut self, cell: &Cell, first: usize) {
         let shot = self.shot;
         if cell.unshot == Rgb::ZERO && self.seen.is_none() {
+            return;
+        }
+        if first == self.scratch.waiting.len() {
             return;
         }
         self.scratch.lit.iter_mut().for_each(Vec::clear);
@@ -226,6 +289,10 @@ impl Run<'_> {
             if form_factor <= 0.0 {
                 continue;
             }
+            if !self.segments {
+                self.arrives(cell, index, form_factor);
+                continue;
+            }
             let to = receiver.position + normal * shot.lift();
             if from.is_none() && side > 0.0 {
                 let start = index as usize % cell.places;
@@ -238,10 +305,7 @@ impl Run<'_> {
             let ignore = [shot.triangle, receiver.triangle];
             self.counts.rays += 1;
             if !shot.occluder.occluded(&Segment { from, to, ignore }) {
-                self.arriving[index as usize] += cell.unshot * form_factor;
-                if let Some(seen) = self.seen.as_deref_mut() {
-                    seen[index as usize] += form_factor;
-                }
+                self.arrives(cell, index, form_factor);
             }
         }
         self.test_visibility(cell);
@@ -262,8 +326,22 @@ impl Run<'_> {
         self.scratch.waiting.truncate(last);
     }
 
+    /// Books a form factor to a cell in sight.
+    #[inline]
+    fn arrives(&mut self, cell: &Cell, index: u32, form_factor: f64) {
+        let slot = &mut self.arriving[index as usize];
+        let light: [f64; N] = self.shot.channels.pick(cell.unshot);
+        for (slot, light) in slot.iter_mut().zip(light) {
+            *slot += light * form_factor;
+        }
+        if let Some(seen) = self.seen.as_deref_mut() {
+            seen[index as usize] += form_factor;
+        }
+    }
+
     /// One segment per lit receiver, in batches that share a start.
     fn test_visibility(&mut self, cell: &Cell) {
+        let light: [f64; N] = self.shot.channels.pick(cell.unshot);
         let Scratch { lit, targets, blocked, .. } = &mut *self.scratch;
         for ((lit, targets), origin) in lit.iter().zip(&*targets).zip(cell.origins) {
             if lit.is_empty() {
@@ -276,7 +354,10 @@ impl Run<'_> {
             self.counts.rays += targets.len() as u64;
             let open = lit.iter().zip(&*blocked).filter(|(_, blocked)| !**blocked);
             for (&(index, form_factor), _) in open {
-                self.arriving[index as usize] += cell.unshot * form_factor;
+                let slot = &mut self.arriving[index as usize];
+                for (slot, light) in slot.iter_mut().zip(light) {
+                    *slot += light * form_factor;
+                }
                 if let Some(seen) = self.seen.as_deref_mut() {
                     seen[index as usize] += form_factor;
                 }

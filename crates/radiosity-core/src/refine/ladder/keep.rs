@@ -189,7 +189,7 @@ impl Record for Measured {
     }
 }
 
-record!(StepReport { shots, rays, form_factors, unshot });
+record!(StepReport { shots, rays, form_factors, directions, unshot });
 
 impl Record for Sampled {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
