@@ -70,11 +70,11 @@ pub(crate) fn prepare(
     scene: &Scene,
     work: &Work,
     read: &Read,
-    (goal, correction): (Goal, Correction),
+    (goal, correction, timed): (Goal, Correction, bool),
     sharing: Loop,
 ) -> Result<Prepared, Failure> {
     let clock = Instant::now();
-    let plan = Plan::of(scene, &plan_config(work, read, goal, correction, scene));
+    let plan = Plan::of(scene, &plan_config(work, read, goal, correction, timed, scene));
     let plan_seconds = clock.elapsed().as_secs_f64();
     let pool = Pool::with_loop(plan.threads, sharing)?;
     let clock = Instant::now();
@@ -125,6 +125,7 @@ fn plan_config(
     read: &Read,
     goal: Goal,
     correction: Correction,
+    timed: bool,
     scene: &Scene,
 ) -> PlanConfig {
     let available = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
@@ -146,6 +147,7 @@ fn plan_config(
         },
         threads: work.threads.map(|n| if n == 0 { available } else { n }),
         available,
+        timed,
         everything: work.everything,
     }
 }

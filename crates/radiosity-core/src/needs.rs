@@ -25,12 +25,21 @@ pub struct Needs {
     /// Receivers one by one. Without, blocks of them are left out where planes, walls and sealed
     /// spaces show that no light comes, and lit without segments where nothing is in between.
     pub singles: bool,
+    /// A second estimate of form factors on each mesh. Without, it is left to meshes that may be the last:
+    /// work that is stopped on the first one of more than a thousand elements then has no statement.
+    pub early_estimates: bool,
 }
 
 impl Needs {
     /// Whatever the scene.
-    pub const EVERYTHING: Self =
-        Self { segments: true, census: true, channels: Channels::ALL, black: true, singles: true };
+    pub const EVERYTHING: Self = Self {
+        segments: true,
+        census: true,
+        channels: Channels::ALL,
+        black: true,
+        singles: true,
+        early_estimates: true,
+    };
 }
 
 impl Default for Needs {

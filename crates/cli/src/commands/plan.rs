@@ -39,7 +39,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
         Some(n) => Goal::Mesh { elements: Some(n), converge: DEFAULT_CONVERGE, stated: true },
         None => Goal::Error(args.error),
     };
-    let how = (goal, Correction::Auto);
+    let how = (goal, Correction::Auto, false);
     let prepared = pipeline::prepare(&imported.scene, &work, &read, how, Loop::default())?;
     let config = work.mesh(imported.scene.triangles().len());
     let (mesh, census, time) = pipeline::mesh(&imported.scene, &prepared, &config, &read);

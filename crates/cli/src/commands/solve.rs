@@ -88,7 +88,8 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     if let Some(budget) = Budget::of(settings, &imported.scene) {
         budget.check()?;
     }
-    let goal = (settings.goal, settings.shooting.correction);
+    let timed = settings.limits.time.is_some();
+    let goal = (settings.goal, settings.shooting.correction, timed);
     let prepared = pipeline::prepare(
         &imported.scene,
         &settings.work,

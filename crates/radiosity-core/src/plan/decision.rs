@@ -27,6 +27,8 @@ pub enum Topic {
     Splitting,
     /// Ambient corrections.
     Corrections,
+    /// Second estimates of form factors.
+    Estimates,
     /// Single or double precision.
     Precision,
     /// Threads.
@@ -49,6 +51,7 @@ impl Topic {
             Self::Black => "black",
             Self::Splitting => "splitting",
             Self::Corrections => "corrections",
+            Self::Estimates => "estimates",
             Self::Precision => "precision",
             Self::Threads => "threads",
         }

@@ -36,6 +36,8 @@ pub struct PlanConfig {
     pub threads: Option<usize>,
     /// Threads that the machine can run at once.
     pub available: usize,
+    /// Whether a time limit may end the work at any moment.
+    pub timed: bool,
     /// Leave nothing out.
     pub everything: bool,
 }
@@ -53,6 +55,7 @@ impl PlanConfig {
             structure: None,
             threads: None,
             available: 1,
+            timed: false,
             everything: false,
         }
     }

@@ -11,7 +11,7 @@ use super::sample::Sampled;
 use super::statement::{
     Measured, Parts, Statement, Step, foreseen, mesh_error, stated, unbalanced,
 };
-use super::{Asked, Reached, Refined};
+use super::{Asked, Reached, RefineConfig, Refined};
 use crate::checkpoint::Kept;
 use crate::executor::Executor;
 use crate::mesh::Mesh;
@@ -115,6 +115,16 @@ impl<'a, E: Executor> Ladder<'a, E> {
                 }
                 _ => Reached::Shooting,
             };
+            let left_out = rung.level.sampled.is_none() && reached != Reached::Stopped;
+            if left_out && matches!(reason, StopReason::Converged | StopReason::ShotLimit) {
+                // The last one after all: memory allows no other.
+                let Rung { level, step, mesh_errors, .. } = rung;
+                let level = self.light_and(true, level.mesh, None, observer);
+                let sampled = level.sampled.unwrap_or(Sampled::UNKNOWN);
+                let rung = Rung { level, step, mesh_errors, sampled };
+                let statement = self.statement(&rung);
+                return self.finish(rung, statement, reached);
+            }
             return self.finish(rung, statement, reached);
         }
     }
@@ -237,14 +247,44 @@ impl<'a, E: Executor> Ladder<'a, E> {
 
     /// Lights the present level's mesh, from where it was `kept` on, if it was.
     fn light(&mut self, mesh: Mesh, kept: Option<Progress>, observer: &mut impl Observer) -> Level {
+        let estimated = self.may_be_last(mesh.elements().len());
+        self.light_and(estimated, mesh, kept, observer)
+    }
+
+    /// The same, with a second estimate of its form factors if it is to be `estimated`.
+    fn light_and(
+        &mut self,
+        estimated: bool,
+        mesh: Mesh,
+        kept: Option<Progress>,
+        observer: &mut impl Observer,
+    ) -> Level {
         let base = self.base;
         let most_elements = self.setting.refining.most_elements;
         let done = self.done.as_ref();
         let climb = Climb { base, most_elements, grown: &self.grown, done };
         let mut relay = Relay { climb, observer };
-        let level = self.setting.level(mesh, done.is_none(), kept, &mut relay);
+        let first = done.is_none();
+        let level = self.setting.level(mesh, first, estimated, kept, &mut relay);
         self.base = base.and(&level.work);
         level
+    }
+
+    /// Whether the work may end with a mesh of so many elements. If not, what its form factors err by
+    /// decides nothing.
+    fn may_be_last(&self, elements: usize) -> bool {
+        let RefineConfig { asked, most_elements, least_area, most_depth, .. } =
+            self.setting.refining;
+        let asked = match asked {
+            Asked::Error(_) => usize::MAX,
+            Asked::Elements(n) | Asked::Unstated(n) => n,
+        };
+        let most = asked.min(most_elements);
+        let limited = least_area > 0.0 || most_depth < u32::MAX;
+        self.setting.config.needs.early_estimates
+            || limited
+            || elements >= LEAST_ELEMENTS
+            || elements as f64 * LEAST_GROWTH > most as f64
     }
 
     /// Compares a level with the one before.

@@ -68,12 +68,13 @@ impl<E: Executor> Setting<'_, E> {
     }
 
     /// Shoots on a mesh until what is unshot no longer matters or the observer says stop; from
-    /// where it was `kept` on, if it was. A level that is stopped before its first step shows what
+    /// where it was `kept` on, if it was. Its form factors are `estimated` a second time, or not. A level that is stopped before its first step shows what
     /// its surfaces emit.
     pub(super) fn level(
         &self,
         mesh: Mesh,
         first: bool,
+        estimated: bool,
         kept: Option<Progress>,
         observer: &mut impl Observer,
     ) -> Level {
@@ -109,13 +110,14 @@ impl<E: Executor> Setting<'_, E> {
         let remaining = shooting.remaining();
         let sampled = match (self.refining.asked.stated(), reason) {
             (false, _) => Some(Sampled::default()),
+            (true, StopReason::Converged | StopReason::ShotLimit) if !estimated => None,
             (true, StopReason::Stopped) => None,
             (true, _) => {
                 let stopper = stopper.as_ref();
                 sample::form_factors(scene, &mesh, &shooting, &solution, counted, stopper)
             }
         };
-        if stopped || sampled.is_none() && reason != StopReason::Stopped {
+        if stopped || sampled.is_none() && estimated && reason != StopReason::Stopped {
             shooting.hand_out(observer);
         }
         let iteration = Measured {

@@ -109,6 +109,23 @@ impl Blocks {
         blocks
     }
 
+    /// Blocks of three for some of the mesh's points, numbered from 0: the corners of single elements.
+    pub(super) fn around(
+        &self,
+        mesh: &Mesh,
+        receivers: &[ReceiverPoint],
+        points: &[u32],
+    ) -> Vec<Block> {
+        let place = |(index, (receiver, point)): (usize, (&ReceiverPoint, &u32))| Place {
+            index,
+            normal: receiver.normal,
+            position: receiver.position,
+            space: self.spaces.get(*point as usize).copied().flatten(),
+        };
+        let places: Vec<Place> = receivers.iter().zip(points).enumerate().map(place).collect();
+        places.chunks(3).map(|corners| Block::of(corners, mesh.extent)).collect()
+    }
+
     /// Each of them.
     pub(super) fn all(&self) -> &[Block] {
         &self.all
@@ -196,7 +213,7 @@ impl Block {
             low,
             high,
             plane: places.iter().all(flat).then_some(lowest),
-            space: first.space,
+            space: first.space.filter(|_| places.iter().all(|p| p.space == first.space)),
         }
     }
 }

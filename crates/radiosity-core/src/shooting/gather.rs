@@ -7,12 +7,12 @@ use super::detail::Detail;
 use super::transfer::{Receivers, Scratch, Shot};
 use super::{Shooting, sides};
 use crate::executor::Executor;
-use crate::mesh::ReceiverPoint;
-use crate::needs::Needs;
+use crate::mesh::{Patch, ReceiverPoint};
 use crate::observer::Stopper;
 
-/// Points per run of an executor: few, since there are few points.
-const RUN: usize = 32;
+/// Points per run of an executor: few, since there are few points; the corners of an element together,
+/// and eight start from different places of a cell.
+const RUN: usize = 24;
 
 /// What a point receives of all light shot so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -76,6 +76,15 @@ impl<E: Executor> Shooting<'_, E> {
             .collect()
     }
 
+    /// Whether a second estimate of a patch's light says anything: where black surfaces are left out, of
+    /// patches that have shone none their share of the view is enough.
+    fn is_asked_of(&self, patch: &Patch, shone: &[Rgb]) -> bool {
+        let elements = patch.elements.start as usize..patch.elements.end as usize;
+        self.config.needs.black
+            || self.closure.is_some()
+            || shone[elements].iter().any(|light| *light != Rgb::ZERO)
+    }
+
     fn gather_run<const N: usize>(
         &self,
         run: &mut Run,
@@ -88,17 +97,22 @@ impl<E: Executor> Shooting<'_, E> {
             run.points.iter().map(|&p| mesh.points[p as usize]).collect();
         let mut arriving = vec![[0.0; N]; receivers.len()];
         let mut seen = vec![0.0; receivers.len()];
-        let needs = Needs { singles: true, ..self.config.needs };
+        let needs = self.config.needs;
+        let blocks = self.blocks.around(mesh, &receivers, run.points);
+        let blocks = (!needs.singles).then_some((0, blocks.as_slice()));
         let (mut scratch, mut cells): (Scratch, Vec<Cell>) = Default::default();
         let mut totals = vec![Rgb::ZERO; receivers.len()];
+        let shots = Detail::of(&self.config);
         for patch in &mesh.patches {
             if stopper.is_some_and(|stop| stop()) {
                 return;
             }
             cell::cells_of(mesh, self.census, patch, shone, detail.quarterings, &mut cells);
             let (occluder, mean) = (self.occluder, self.mean);
+            let detail = if self.is_asked_of(patch, shone) { detail } else { &shots };
             let shot = Shot::new(occluder, &cells, mesh, patch, exchange, &needs, detail, mean);
-            let points = Receivers { points: &receivers, shares: None, blocks: None };
+            let shot = Shot { space: self.blocks.space_of(mesh, &patch.elements), ..shot };
+            let points = Receivers { points: &receivers, shares: None, blocks };
             arriving.fill([0.0; N]);
             shot.light(points, &mut arriving, Some(&mut seen), &mut scratch);
             totals.iter_mut().zip(&arriving).for_each(|(t, a)| *t += needs.channels.spread(*a));

@@ -48,6 +48,8 @@ pub(super) struct Shot<'a> {
     pub(super) triangle: u32,
     pub(super) exchange: Exchange,
     pub(super) rule: Rule,
+    /// Whether form factors are exact, and cells are split for what may lie between alone.
+    pub(super) exact: bool,
     /// The scene's extent.
     pub(super) extent: f64,
     /// Irradiance below which a cell need not be split, per channel; at least 0.
@@ -87,6 +89,7 @@ impl<'a> Shot<'a> {
             triangle: root.triangle.0,
             exchange,
             rule: Rule::for_tolerance(detail.tolerance),
+            exact: detail.tolerance == 0.0,
             extent: mesh.extent,
             negligible: mean * detail.cell_share,
             open_radii: detail.open_radii,
@@ -275,12 +278,15 @@ impl<const N: usize> Run<'_, N> {
         self.scratch.lit.iter_mut().for_each(Vec::clear);
         self.scratch.targets.iter_mut().for_each(Vec::clear);
         let last = self.scratch.waiting.len();
+        // What shines alike everywhere and is seen whole is one cell, however bright.
+        let alike = matches!(cell.parts, Parts::Quarters(_)) && cell.open == 1.0;
+        let whole = alike && shot.exact && !self.segments;
         for i in first..last {
             let index = self.scratch.waiting[i];
             let receiver = &self.receivers.points[index as usize];
             let Some((side, normal)) = shot.facing(cell, receiver) else { continue };
             let share = self.receivers.share(index);
-            if shot.too_coarse(cell, receiver, normal, side, share) {
+            if !whole && shot.too_coarse(cell, receiver, normal, side, share) {
                 self.scratch.waiting.push(index);
                 continue;
             }

@@ -16,6 +16,7 @@ impl Draft<'_> {
         self.black(shape);
         self.splitting();
         self.corrections();
+        self.estimates();
         self.precision();
         self.threads(shape);
     }
@@ -117,6 +118,30 @@ impl Draft<'_> {
             why,
             Work::default(),
             Effect::Stated,
+        );
+    }
+
+    fn estimates(&mut self) {
+        let leaves_out = self.free() && !self.config.timed;
+        self.needs.early_estimates = !leaves_out;
+        let (choice, why) = match leaves_out {
+            true => (
+                "form factors are estimated again on meshes that may be the last",
+                "what smaller ones err by decides nothing, unless the work is stopped",
+            ),
+            false if self.free() => (
+                "form factors are estimated again on each mesh",
+                "a time limit may make any the last",
+            ),
+            false => ("form factors are estimated again on each mesh", "everything is asked for"),
+        };
+        self.put(
+            Topic::Estimates,
+            choice.into(),
+            leaves_out,
+            why.into(),
+            Work::default(),
+            Effect::Exact,
         );
     }
 
