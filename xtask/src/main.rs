@@ -7,6 +7,7 @@ mod built;
 mod ci;
 mod figure;
 mod instructions;
+mod needs;
 mod numerics;
 mod precision;
 mod scenes;
@@ -45,6 +46,8 @@ enum Task {
     Bench(Box<bench::Arguments>),
     /// Measure estimators and sweeps, and draw the figures of docs/numerics.md.
     Numerics(numerics::Arguments),
+    /// Measure what leaving out pays, scene by scene, and draw the tables of docs/plan.md.
+    Needs(needs::Arguments),
     /// Count the instructions of every kernel with valgrind, and compare them with the baseline of
     /// docs/performance.
     Instructions(instructions::Arguments),
@@ -60,6 +63,7 @@ fn main() -> ExitCode {
         Task::Precision(arguments) => precision::run(&root, &arguments),
         Task::Bench(arguments) => bench::run(&root, &arguments),
         Task::Numerics(arguments) => numerics::run(&root, &arguments),
+        Task::Needs(arguments) => needs::run(&root, &arguments),
         Task::Instructions(arguments) => instructions::run(&root, &arguments),
     };
     match result {

@@ -130,6 +130,15 @@ pub(crate) fn count(n: u64) -> String {
     text
 }
 
+/// An amount that was foreseen, in two digits: nobody knows more.
+pub(crate) fn rough(amount: f64) -> String {
+    if amount < 1.0 {
+        return "0".into();
+    }
+    let unit = 10f64.powf((amount.log10().floor() - 1.0).max(0.0));
+    count(((amount / unit).round() * unit) as u64)
+}
+
 /// A share as a percentage with three digits.
 pub(crate) fn percent(share: f64) -> String {
     let percent = share * 100.0;

@@ -7,6 +7,7 @@ mod batch;
 mod config;
 mod degenerate;
 mod nearest;
+mod proofs;
 mod support;
 mod validate;
 mod watertight;

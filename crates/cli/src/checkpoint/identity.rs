@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use radiosity_core::{Asked, Probe, RefineConfig, ShootingConfig};
+use radiosity_core::{Asked, Needs, Probe, RefineConfig, ShootingConfig};
 use scene::{Rgb, Scene, Sides};
 
 /// What the state of some work belongs to.
@@ -26,6 +26,9 @@ impl Identity {
             Asked::Elements(n) => format!("--elements {n} --converge {unshot}"),
             Asked::Unstated(n) => format!("--elements {n} --converge {unshot} --no-statement"),
         };
+        // Second estimates before the last mesh change nothing that is kept.
+        let needs = Needs { early_estimates: true, ..config.needs };
+        let config = ShootingConfig { needs, ..*config };
         let triangles = scene.triangles().len();
         let lines = vec![
             ("program", concat!("radiosity ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -34,7 +37,7 @@ impl Identity {
             ("probes", format!("{}, CRC-32 {:08x}", probes.len(), places(probes))),
             ("goal", goal),
             ("occluders", occluder.to_owned()),
-            ("shooting", text(config)),
+            ("shooting", text(&config)),
             ("refining", text(refining)),
         ];
         Self { lines }

@@ -15,7 +15,7 @@ use crate::files;
 use crate::memory;
 use crate::pipeline;
 use crate::report::{PlanReport, total_area};
-use crate::screen::{count, percent, result, seconds};
+use crate::screen::{count, percent, result, rough, seconds};
 use crate::settings::{self, DEFAULT_CONVERGE, Goal};
 
 /// Reads the scene, builds what a solve would use, and prints both.
@@ -144,15 +144,6 @@ fn amounts(work: &Work) -> String {
         rough(work.directions),
         seconds(work.seconds)
     )
-}
-
-/// Two digits: nobody knows more.
-fn rough(amount: f64) -> String {
-    if amount < 1.0 {
-        return "0".into();
-    }
-    let unit = 10f64.powf((amount.log10().floor() - 1.0).max(0.0));
-    count(((amount / unit).round() * unit) as u64)
 }
 
 /// The mesh that a solve without refinement would have, and how open the scene is.

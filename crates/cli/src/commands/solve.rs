@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use output::Format;
 use output::csv::Place;
-use radiosity_core::{Mesh, Probe, StopReason};
+use radiosity_core::{Mesh, Plan, Probe, Refined, StopReason};
 use scene::{Scene, TriangleId};
 use scene_import::Imported;
 
@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::memory::Budget;
 use crate::pipeline::{self, INTERRUPT, Prepared, Solved};
 use crate::report::{Report, Run};
-use crate::screen::{self, count, percent, say, seconds};
+use crate::screen::{self, count, percent, rough, say, seconds};
 use crate::settings::{self, Goal, Read, Solve, Target, Work};
 use crate::snapshot::Snapshots;
 use crate::{bundled, files};
@@ -130,8 +130,9 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         outputs.push(path.display().to_string());
     }
     say(&format!(
-        "time: read {}, occluder {}, solve {}, output {}",
+        "time: read {}, plan {}, occluder {}, solve {}, output {}",
         seconds(read_seconds),
+        seconds(prepared.plan_seconds),
         seconds(prepared.occluder_seconds),
         seconds(solved.seconds),
         seconds(output_seconds)
@@ -243,6 +244,21 @@ fn write(
     }
 }
 
+/// Says what was left out, and what was foreseen beside what was done.
+fn say_plan(plan: &Plan, refined: &Refined) {
+    let left_out = plan.decisions.iter().filter(|decision| decision.leaves_out);
+    let topics: Vec<&str> = left_out.map(|decision| decision.topic.name()).collect();
+    let topics = if topics.is_empty() { "nothing left out".into() } else { topics.join(", ") };
+    let (planned, done) = (&plan.planned, &refined.total_work);
+    say(&format!(
+        "plan: {topics}; foreseen {} form factors and {} segments, done {} and {}",
+        rough(planned.form_factors),
+        rough(planned.segments),
+        rough(done.form_factors as f64),
+        rough(done.rays as f64)
+    ));
+}
+
 /// Says what ended the work before its goal, and how far it got.
 fn say_limit(solved: &Solved, goal: Goal) {
     let Some(limit) = solved.limit else { return };
@@ -302,6 +318,7 @@ fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
         percent(work.unshot),
         if refined.corrected { "; ambient corrections" } else { "" }
     ));
+    say_plan(&prepared.plan, refined);
     screen::statement(refined.statement.as_ref(), refined.reached);
     say_limit(solved, settings.goal);
     if let Some([least, most]) = refined.closed_rows {

@@ -88,7 +88,7 @@ fn other_work_is_told_apart() {
         ("--sides=both", "materials: CRC-32 "),
         ("--converge=1%", "goal: --elements 200 --converge 0.001, expected --elements 200 "),
         ("--no-statement", "goal: --elements 200 --converge 0.001, expected "),
-        ("--accel=octree", "occluders: bvh, expected octree"),
+        ("--accel=octree", "occluders: none, expected octree"),
         ("--schedule=single", "shooting: schedule: Auto, expected schedule: Single"),
         ("--max-depth=30", "refining: most_depth: "),
         ("--probe=places.csv -o at.probe.csv", "probes: 0, "),

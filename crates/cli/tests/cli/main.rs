@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
 
+mod memory;
+mod plan;
 mod solve;
 mod statement;
 mod stopping;

@@ -262,16 +262,6 @@ fn compare_measures_and_judges() {
 }
 
 #[test]
-fn plan_says_what_was_read() {
-    let (folder, _) = folder_with("box.tri", box_tri().as_bytes());
-    let run = radiosity(folder.path(), &["plan", "box.tri"]);
-    assert_eq!(run.code(), 0, "{}", run.stderr());
-    for expected in ["12 triangles", "area 24", "2 emitting triangles", "bvh", "warnings  0"] {
-        assert!(run.stdout().contains(expected), "{expected}: {}", run.stdout());
-    }
-}
-
-#[test]
 fn convert_keeps_the_light() {
     let (folder, _) = folder_with("box.tri", box_tri().as_bytes());
     // Power leaving all surfaces, red: does not depend on the order of the triangles, which

@@ -16,8 +16,8 @@ pub(super) const LOOK: f64 = 8e-9;
 pub(super) const BLOCK: f64 = 25e-9;
 pub(super) const THING: f64 = 9e-9;
 
-/// A wall looked at for a block behind it.
-pub(super) const WALL: f64 = 120e-9;
+/// A wall looked at for a block: most are not between.
+pub(super) const WALL: f64 = 15e-9;
 
 /// A direction of the census.
 pub(super) const DIRECTION: f64 = 0.4e-6;

@@ -145,7 +145,7 @@ impl Shape<'_> {
             false => {
                 let blocks = shots * points / self.block();
                 let each = cost::BLOCK
-                    + cost::WALL * 0.2 * way.walls as f64
+                    + cost::WALL * way.walls as f64
                     + cost::THING * 0.5 * way.things as f64;
                 blocks * each + (pairs - pairs * share(|s| s.behind)).max(0.0) * cost::LOOK
             }

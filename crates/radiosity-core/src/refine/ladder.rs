@@ -115,7 +115,7 @@ impl<'a, E: Executor> Ladder<'a, E> {
                 }
                 _ => Reached::Shooting,
             };
-            let left_out = rung.level.sampled.is_none() && reached != Reached::Stopped;
+            let left_out = !rung.level.estimated && reached != Reached::Stopped;
             if left_out && matches!(reason, StopReason::Converged | StopReason::ShotLimit) {
                 // The last one after all: memory allows no other.
                 let Rung { level, step, mesh_errors, .. } = rung;

@@ -46,8 +46,10 @@ pub(super) struct Level {
     /// nothing is known of what was missed.
     pub(super) unseen: bool,
     pub(super) iteration: Measured,
-    /// `None` if the work was stopped before that was known.
+    /// `None` if the work was stopped before that was known, or it was left out.
     pub(super) sampled: Option<Sampled>,
+    /// Whether it was not left out.
+    pub(super) estimated: bool,
 }
 
 /// What all levels have in common.
@@ -144,6 +146,7 @@ impl<E: Executor> Setting<'_, E> {
             counted,
             iteration,
             sampled,
+            estimated,
             mesh,
         }
     }

@@ -11,15 +11,15 @@ use accel::proof::Plane;
 use glam::DVec3;
 
 use super::light::RUN;
-use crate::mesh::{Mesh, ReceiverPoint};
+use crate::mesh::{Element, Mesh, ReceiverPoint};
 use crate::needs::{self, Needs};
 
-/// Receivers of one plane in a block, at most: as many as one batch of segments answers at best.
-const MOST: usize = 64;
+/// Receivers of one plane in a block, at most: two batches of segments.
+pub(super) const MOST: usize = 32;
 
 /// Receivers after which a block ends where the plane changes: smaller blocks cost more than they
 /// spare.
-const FEW: usize = 16;
+const FEW: usize = 8;
 
 /// Receivers that follow each other.
 #[derive(Clone, Debug)]
@@ -43,6 +43,8 @@ pub(super) struct Blocks {
     of_patches: Vec<(u32, u32)>,
     /// The sealed space of each receiver; empty where there is but one.
     spaces: Vec<Option<u64>>,
+    /// Whether each receiver is in a block; empty if all are.
+    wanted: Vec<bool>,
     /// Receivers that are in no block, of those that the mesh has.
     pub(super) left_out: usize,
 }
@@ -59,6 +61,18 @@ struct Place {
 impl Blocks {
     /// Sorts out the receivers that may get light, and puts them into blocks.
     pub(super) fn of(
+        mesh: &Mesh,
+        receivers: &[ReceiverPoint],
+        occluder: &dyn Occluder,
+        needs: &Needs,
+        lift: f64,
+    ) -> Self {
+        Self::of_at_most(MOST, mesh, receivers, occluder, needs, lift)
+    }
+
+    /// The same, of at most so many receivers each.
+    pub(super) fn of_at_most(
+        most: usize,
         mesh: &Mesh,
         receivers: &[ReceiverPoint],
         occluder: &dyn Occluder,
@@ -93,7 +107,7 @@ impl Blocks {
             let run = (first..(first + RUN).min(receivers.len())).filter(|i| wanted[*i]);
             let mut open: Vec<Place> = Vec::new();
             for next in run.map(place) {
-                if open.last().is_some_and(|last| ends(&open, last, &next, mesh.extent)) {
+                if open.last().is_some_and(|last| ends(most, &open, last, &next, mesh.extent)) {
                     all.push(Block::of(&open, mesh.extent));
                     open.clear();
                 }
@@ -105,6 +119,9 @@ impl Blocks {
             blocks.of_runs.push(start..all.len() as u32);
         }
         blocks.left_out = wanted[..mesh.points.len()].iter().filter(|w| !**w).count();
+        if blocks.left_out > 0 {
+            blocks.wanted = wanted;
+        }
         blocks.all = all;
         blocks
     }
@@ -137,6 +154,11 @@ impl Blocks {
         &self.all[start as usize..end as usize]
     }
 
+    /// Whether any corner of an element is in a block.
+    pub(super) fn want(&self, element: &Element) -> bool {
+        self.wanted.is_empty() || element.points.iter().any(|p| self.wanted[*p as usize])
+    }
+
     /// The runs in which a patch has points.
     pub(super) fn runs_of(&self, patch: usize) -> Range<usize> {
         let (first, last) = self.of_patches[patch];
@@ -167,7 +189,7 @@ fn wanted(mesh: &Mesh, receivers: usize, spaces: &[Option<u64>], needs: &Needs) 
         }
     }
     if !spaces.is_empty() {
-        let emits = |e: &&crate::mesh::Element| mesh.root_of(e).emittance.max_channel() > 0.0;
+        let emits = |e: &&Element| mesh.root_of(e).emittance.max_channel() > 0.0;
         let lamps = mesh.elements.iter().filter(emits).flat_map(|e| e.points);
         let mut lit: Vec<Option<u64>> = lamps.map(|p| spaces[p as usize]).collect();
         lit.sort_unstable();
@@ -183,19 +205,26 @@ fn wanted(mesh: &Mesh, receivers: usize, spaces: &[Option<u64>], needs: &Needs) 
 }
 
 /// Whether a block ends before the next receiver.
-fn ends(open: &[Place], last: &Place, next: &Place, extent: f64) -> bool {
-    if next.index != last.index + 1 || next.space != last.space || open.len() == MOST {
+fn ends(most: usize, open: &[Place], last: &Place, next: &Place, extent: f64) -> bool {
+    if next.index != last.index + 1 || next.space != last.space || open.len() == most {
         return true;
     }
     let plane = needs::plane_at(last.normal, last.position);
     let same = next.normal == last.normal && plane.height(next.position).abs() <= FLAT * extent;
-    !same && open.len() >= FEW
+    !same && open.len() >= FEW.min(most / 2)
 }
 
 /// Places no farther than this from a plane, as a share of the extent, lie in it.
 const FLAT: f64 = 1e-10;
 
 impl Block {
+    /// Places in an element with this normal, numbered by the caller.
+    pub(super) fn of_element(corners: [DVec3; 3], normal: DVec3, space: Option<u64>) -> Self {
+        let [a, b, c] = corners;
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        Self { receivers: 0..0, low, high, plane: Some(needs::plane_at(normal, a)), space }
+    }
+
     fn of(places: &[Place], extent: f64) -> Self {
         let (first, last) = (&places[0], &places[places.len() - 1]);
         let (mut low, mut high) = (first.position, first.position);

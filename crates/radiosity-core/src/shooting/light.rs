@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use super::Shooting;
 use super::detail::Detail;
-use super::near::Near;
+use super::near::NearSlots;
 use super::shooter::{Preparation, Shooter};
 use super::transfer::{Counts, Receivers, Scratch, Shot};
 use crate::executor::Executor;
@@ -24,6 +24,7 @@ impl<E: Executor> Shooting<'_, E> {
             mean: self.mean,
             receivers: self.receivers.len(),
             black: &self.black,
+            blocks: &self.blocks,
         };
         let shooters = &mut self.shooters[..shooters];
         self.executor.for_each(shooters, |shooter| shooter.prepare(&preparation));
@@ -59,10 +60,14 @@ impl<E: Executor> Shooting<'_, E> {
                 lit: Some(lit),
                 ..Run::new(shot, arriving)
             }));
-            let Near { points, weights, arriving, .. } = near;
+            let NearSlots { points, weights, arriving, blocks } = near.slots();
             let slots = points.chunks(RUN).zip(weights.chunks(RUN)).zip(arriving.chunks_mut(run));
-            runs.extend(slots.map(|((points, shares), arriving)| Run {
-                receivers: Receivers { points, shares: Some(shares), blocks: None },
+            runs.extend(slots.enumerate().map(|(i, ((points, shares), arriving))| Run {
+                receivers: Receivers {
+                    points,
+                    shares: Some(shares),
+                    blocks: in_blocks.map(|_| (i * RUN, blocks.of_run(i))),
+                },
                 ..Run::new(shot, arriving)
             }));
         }

@@ -12,6 +12,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::blocks::{Block, Blocks};
+use super::light::RUN;
 use crate::config::Exchange;
 use crate::mesh::{Element, Mesh, Patch, ReceiverPoint, bounding};
 
@@ -45,6 +47,17 @@ pub(super) struct NearElement {
     pub(super) last: u32,
 }
 
+/// What near elements are wanted for.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    /// Channels that are computed.
+    pub(super) channels: usize,
+    /// Roots that receive nothing; none if absent.
+    pub(super) black: &'a [bool],
+    /// Which receivers light may reach.
+    pub(super) blocks: &'a Blocks,
+}
+
 /// The near elements of one shot, in the order of the elements.
 #[derive(Default)]
 pub(super) struct Near {
@@ -54,6 +67,10 @@ pub(super) struct Near {
     pub(super) weights: Vec<f64>,
     /// Irradiance arriving at each point, in each channel that is computed.
     pub(super) arriving: Vec<f64>,
+    /// The points in blocks, none of which is in two runs.
+    blocks: Vec<Block>,
+    /// Where the blocks of each run are.
+    of_runs: Vec<Range<u32>>,
 }
 
 impl Near {
@@ -67,13 +84,15 @@ impl Near {
         shooter: &Patch,
         exchange: Exchange,
         light: f64,
-        channels: usize,
-        black: &[bool],
+        wanted: &Wanted,
     ) {
+        let Wanted { channels, black, blocks: receivers } = *wanted;
         self.elements.clear();
         self.points.clear();
         self.weights.clear();
         self.arriving.clear();
+        self.blocks.clear();
+        self.of_runs.clear();
         if light <= 1.0 {
             return;
         }
@@ -96,10 +115,41 @@ impl Near {
                 continue;
             }
             for e in patch.elements.clone() {
-                self.consider(mesh, &source, e);
+                if receivers.want(&mesh.elements[e as usize]) {
+                    self.consider(mesh, &source, e);
+                }
             }
         }
         self.arriving.resize(self.points.len() * channels, 0.0);
+        self.sort(mesh, receivers);
+    }
+
+    /// Puts the points of each element into blocks.
+    fn sort(&mut self, mesh: &Mesh, receivers: &Blocks) {
+        for near in &self.elements {
+            let element = &mesh.elements[near.element as usize];
+            let corners = mesh.corners(element.vertices);
+            let space = receivers.space_of(mesh, &(near.element..near.element + 1));
+            let whole = Block::of_element(corners, mesh.root_of(element).normal, space);
+            let mut first = near.first;
+            while first < near.last {
+                let run = first / RUN as u32;
+                if self.of_runs.len() <= run as usize {
+                    let start = self.blocks.len() as u32;
+                    self.of_runs.push(start..start);
+                }
+                let end = near.last.min((run + 1) * RUN as u32);
+                self.blocks.push(Block { receivers: first..end, ..whole.clone() });
+                self.of_runs[run as usize].end = self.blocks.len() as u32;
+                first = end;
+            }
+        }
+    }
+
+    /// What a shot reads and writes.
+    pub(super) fn slots(&mut self) -> NearSlots<'_> {
+        let Self { points, weights, arriving, blocks, of_runs, .. } = self;
+        NearSlots { points, weights, arriving, blocks: NearBlocks { blocks, of_runs } }
     }
 
     /// Whether any of these elements is near.
@@ -166,6 +216,29 @@ impl Near {
                 self.weights.push(weight * share);
             }
         }
+    }
+}
+
+/// The points of near elements, with their slots.
+pub(super) struct NearSlots<'a> {
+    pub(super) points: &'a [ReceiverPoint],
+    pub(super) weights: &'a [f64],
+    pub(super) arriving: &'a mut [f64],
+    pub(super) blocks: NearBlocks<'a>,
+}
+
+/// Their blocks.
+#[derive(Clone, Copy)]
+pub(super) struct NearBlocks<'a> {
+    blocks: &'a [Block],
+    of_runs: &'a [Range<u32>],
+}
+
+impl<'a> NearBlocks<'a> {
+    /// Those of a run of points.
+    pub(super) fn of_run(self, run: usize) -> &'a [Block] {
+        let Range { start, end } = self.of_runs[run];
+        &self.blocks[start as usize..end as usize]
     }
 }
 

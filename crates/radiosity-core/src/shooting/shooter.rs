@@ -2,10 +2,11 @@
 
 use scene::Rgb;
 
+use super::blocks::Blocks;
 use super::cell::{self, Cell};
 use super::detail::Detail;
 use super::light::RUN;
-use super::near::Near;
+use super::near::{Near, Wanted};
 use super::state::State;
 use crate::census::Census;
 use crate::config::ShootingConfig;
@@ -36,6 +37,7 @@ pub(super) struct Preparation<'a> {
     pub(super) config: &'a ShootingConfig,
     /// The scene's mean irradiance.
     pub(super) mean: Rgb,
+    pub(super) blocks: &'a Blocks,
     /// How many receivers there are.
     pub(super) receivers: usize,
     /// Roots that receive nothing; none if absent.
@@ -45,14 +47,15 @@ pub(super) struct Preparation<'a> {
 impl Shooter {
     /// Lays out the cells, finds the near elements and clears the slots.
     pub(super) fn prepare(&mut self, with: &Preparation) {
-        let Preparation { mesh, census, state, config, mean, receivers, black } = *with;
+        let Preparation { mesh, census, state, config, mean, receivers, black, blocks } = *with;
         let patch = &mesh.patches[self.patch];
         let quarterings = Detail::of(config).quarterings;
         cell::cells_of(mesh, census, patch, &state.unshot, quarterings, &mut self.cells);
         let brightness = self.cells[0].unshot.abs().share_of(mean).max_channel();
         let channels = config.needs.channels.count();
         let light = brightness / config.bright;
-        self.near.find(mesh, patch, config.exchange, light, channels, black);
+        let wanted = Wanted { channels, black, blocks };
+        self.near.find(mesh, patch, config.exchange, light, &wanted);
         self.arriving.resize(receivers * channels, 0.0);
         self.lit.resize(receivers.div_ceil(RUN), false);
         self.seen.clear();

@@ -5,7 +5,7 @@ use glam::DVec3;
 use scene::Rgb;
 
 use super::SEGMENT_LIFT;
-use super::blocks::Blocks;
+use super::blocks::{self, Blocks};
 use super::detail::Detail;
 use super::reach::Reach;
 use super::transfer::{IN_PLANE, Shot};
@@ -15,6 +15,9 @@ use crate::needs::Needs;
 
 /// Patches in the sample.
 const PATCHES: usize = 24;
+
+/// Receivers in a block, at most: a mesh that is solved is finer than this one, and so are its blocks.
+const MOST: usize = 8;
 
 /// The step from one sampled patch to the next, as a share of all: neighbours are alike.
 const GOLDEN: f64 = 0.618_033_988_749_895;
@@ -34,7 +37,7 @@ pub(crate) struct Survey {
     pub(crate) hidden: f64,
     /// Facing, with nothing in between.
     pub(crate) open: f64,
-    /// Blocks that were looked at.
+    /// Blocks that a finer mesh would have looked at.
     pub(crate) blocks: f64,
 }
 
@@ -43,18 +46,18 @@ pub(crate) struct Survey {
 pub(crate) fn survey(mesh: &Mesh, occluder: &dyn Occluder) -> Survey {
     let needs = Needs { singles: false, ..Needs::EVERYTHING };
     let lift = SEGMENT_LIFT * mesh.extent;
-    let blocks = Blocks::of(mesh, &mesh.points, occluder, &needs, lift);
+    let sorted = Blocks::of_at_most(MOST, mesh, &mesh.points, occluder, &needs, lift);
     let detail = Detail::of(&ShootingConfig::until(1.0));
     let mut survey = Survey::default();
     for (i, patch) in sample(mesh).into_iter().enumerate() {
         let shot =
             Shot::new(occluder, &[], mesh, patch, Exchange::OneSided, &needs, &detail, Rgb::ZERO);
-        let shot = Shot { space: blocks.space_of(mesh, &patch.elements), ..shot };
+        let shot = Shot { space: sorted.space_of(mesh, &patch.elements), ..shot };
         survey.pairs += mesh.points.len() as f64;
-        for block in blocks.all() {
+        for block in sorted.all() {
             let range = block.receivers.start as usize..block.receivers.end as usize;
             let facing = mesh.points[range.clone()].iter().filter(|r| shot.faces(r)).count() as f64;
-            survey.blocks += 1.0;
+            survey.blocks += MOST as f64 / blocks::MOST as f64;
             survey.facing += facing;
             match shot.reach(block) {
                 Reach::Behind => survey.behind += range.len() as f64,
@@ -65,7 +68,7 @@ pub(crate) fn survey(mesh: &Mesh, occluder: &dyn Occluder) -> Survey {
             }
         }
         // Receivers in a space without a lamp are in no block.
-        let left_out = blocks.left_out as f64;
+        let left_out = sorted.left_out as f64;
         let share = survey.facing / (survey.pairs - left_out * (i + 1) as f64).max(1.0);
         survey.apart += left_out * share;
     }

@@ -13,6 +13,7 @@ mod matrix;
 mod mesh;
 mod models;
 mod overlap;
+mod plan;
 mod plates;
 mod refine;
 mod resume;

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use accel::{Bvh, BvhConfig};
 use radiosity_core::{
-    Asked, Control, Mesh, Observer, Reached, RefineConfig, Refined, Sequential, StepReport,
-    Stopper, refine,
+    Asked, Control, Mesh, Needs, Observer, Reached, RefineConfig, Refined, Sequential,
+    ShootingConfig, StepReport, Stopper, refine,
 };
 use scene::{Rgb, Scene, Solution};
 
@@ -113,6 +113,21 @@ fn looking_at_the_light_changes_nothing() {
     let light = |s: &Solution| s.elements.iter().map(|e| e.exitance).sum::<Rgb>()[0];
     assert!(light(&witness.seen.last().unwrap().1) > 0.0);
     assert!(witness.seen.last().unwrap().1 == alone.solution);
+}
+
+#[test]
+fn a_small_mesh_that_is_the_last_after_all_is_estimated_all_the_same() {
+    let scene = room();
+    let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
+    let bvh = Bvh::build(&triangles, &BvhConfig::default());
+    let needs = Needs { early_estimates: false, ..Needs::EVERYTHING };
+    let config = ShootingConfig { needs, ..until(1e-2) };
+    let refining = RefineConfig::until(Asked::Error(1e-4));
+    let mut visitor = Visitor { most: vec![1000, 1000, 200], ..Visitor::patient(usize::MAX) };
+    let refined = refine(&scene, &bvh, &bvh, &Sequential, config, refining, &[], &mut visitor);
+    assert_eq!(refined.reached, Reached::ElementLimit);
+    let statement = refined.statement.unwrap();
+    assert!(statement.triangles.e1.total().is_finite() && statement.sample > 100, "{statement:?}");
 }
 
 #[test]

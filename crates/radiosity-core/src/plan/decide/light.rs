@@ -111,14 +111,10 @@ impl Draft<'_> {
         if self.config.everything && !asked {
             self.correction = Correction::Always;
         }
-        self.put(
-            Topic::Corrections,
-            choice.into(),
-            leaves_out,
-            why,
-            Work::default(),
-            Effect::Stated,
-        );
+        // On a fixed mesh the unshot share ends the shots, whatever the bound on the rest.
+        let exact = self.config.elements.is_some() && plain;
+        let effect = if exact { Effect::Exact } else { Effect::Stated };
+        self.put(Topic::Corrections, choice.into(), leaves_out, why, Work::default(), effect);
     }
 
     fn estimates(&mut self) {

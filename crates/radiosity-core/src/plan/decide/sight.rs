@@ -37,7 +37,7 @@ impl Draft<'_> {
         let asked = self.config.structure == Some(Structure::None);
         let (choice, why, leaves_out, effect);
         let mut saves = Work::default();
-        if asked || free && facts.nothing_blocks() {
+        if asked || free && facts.nothing_blocks() && self.config.structure.is_none() {
             saves = self.spared(shape, |draft| {
                 draft.needs.segments = false;
                 draft.blockers = 0;
@@ -139,7 +139,7 @@ impl Draft<'_> {
         let worth = shape.survey.as_ref().is_some_and(|s| {
             let spared =
                 s.hidden * (cost::FORM_FACTOR + cost::segment(self.structure, self.blockers));
-            spared > WORTH * s.blocks * cost::WALL * 0.2 * count as f64
+            spared > WORTH * s.blocks * cost::WALL * count as f64
         });
         if !worth || self.needs.singles || !self.needs.segments {
             let why = match (count, &shape.survey) {
@@ -179,7 +179,10 @@ impl Draft<'_> {
                     100.0 * s.open / s.facing.max(1.0)
                 ),
             };
-            let choice = "each pair is asked for".into();
+            let choice = match self.needs.segments {
+                true => "each pair is asked for".into(),
+                false => "all are open".into(),
+            };
             self.put(Topic::Ways, choice, false, why, Work::default(), Effect::Exact);
             return;
         }

@@ -128,6 +128,7 @@ impl Kept {
             unseen: self.unseen,
             iteration: self.iteration,
             sampled: Some(self.sampled),
+            estimated: true,
         };
         let Self { step, mesh_errors, sampled, .. } = self;
         Ok(Rung { level, step, mesh_errors, sampled })
@@ -153,7 +154,8 @@ impl<E: Executor> Ladder<'_, E> {
         observer: &mut impl Observer,
     ) -> Result<Refined, Inconsistent> {
         let Checkpoint { climbed, progress } = checkpoint;
-        let counts = [climbed.base.shots, climbed.base.rays, climbed.base.form_factors];
+        let StepReport { shots, rays, form_factors, directions, .. } = climbed.base;
+        let counts = [shots, rays, form_factors, directions];
         if counts.into_iter().any(|count| count > MOST_COUNTED) {
             return Err(Inconsistent("it has a count out of range"));
         }

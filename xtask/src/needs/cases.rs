@@ -1,0 +1,70 @@
+//! What is measured: scenes that need little, the bundled ones, and ways to solve them.
+
+use std::path::{Path, PathBuf};
+
+use super::scenes;
+
+/// Where a scene comes from.
+pub(super) enum Source {
+    /// Text that is written before.
+    Made(fn() -> String),
+    /// A file of the workspace.
+    Bundled(&'static str),
+}
+
+/// A scene with a way to solve it.
+pub(super) struct Case {
+    /// Its name in the table.
+    pub(super) name: &'static str,
+    pub(super) source: Source,
+    /// What it can do without.
+    pub(super) little: &'static str,
+    pub(super) flags: &'static str,
+}
+
+const FIXED: &str = "--elements 8000 --no-statement";
+const STATED: &str = "--error 1%";
+
+/// Each scene on a mesh of a fixed number of elements, and refined.
+pub(super) fn all() -> Vec<Case> {
+    let made = |name, make, little| {
+        [FIXED, STATED].map(|flags| Case { name, source: Source::Made(make), little, flags })
+    };
+    let bundled = |name, file, ways: [&'static str; 2]| {
+        ways.map(|flags| Case { name, source: Source::Bundled(file), little: "", flags })
+    };
+    let large = ["--elements 4000 --converge 5% --no-statement", "--error 5%"];
+    let mut all: Vec<Case> = [
+        made("convex box", scenes::convex, "segments, the census"),
+        made("open plane", scenes::plane, "segments"),
+        made("grey room", scenes::grey, "two channels, most segments"),
+        made("two rooms", scenes::two_rooms, "the room without a lamp"),
+        made("99 % black", scenes::black, "receivers on black surfaces"),
+        made("lamp behind a wall", scenes::behind, "most segments"),
+        made("small obstacle", scenes::obstacle, "most segments"),
+        bundled("Cornell box", "cornell.obj", [FIXED, STATED]),
+        bundled("gallery", "gallery.glb", [FIXED, STATED]),
+        bundled("blocks", "blocks.tri", [FIXED, STATED]),
+        bundled("room", "room.tri", [FIXED, "--error 2%"]),
+        bundled("hall", "hall.tri", large),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    all.extend(bundled("church", "church.tri", large).into_iter().take(1));
+    all
+}
+
+impl Case {
+    /// The scene's file; one that is made is written into `folder`.
+    pub(super) fn file(&self, root: &Path, folder: &Path) -> Result<PathBuf, String> {
+        match self.source {
+            Source::Bundled(name) => Ok(root.join("scenes").join(name)),
+            Source::Made(make) => {
+                let path = folder.join(format!("{}.tri", self.name.replace([' ', '%'], "-")));
+                std::fs::write(&path, make()).map_err(|e| format!("{}: {e}", path.display()))?;
+                Ok(path)
+            }
+        }
+    }
+}
