@@ -11,8 +11,9 @@ use crate::settings::{Solve, Target};
 /// The program with nothing read.
 const PROGRAM: u64 = 8_000_000;
 
-/// A triangle of the scene as read, and in the hierarchy of occluders with what builds it.
-const PER_TRIANGLE: u64 = 400;
+/// A triangle of the scene as read, in the hierarchies of occluders with what builds them, and what the
+/// allocator keeps of what planning took.
+const PER_TRIANGLE: u64 = 800;
 
 /// A piece of the scene that is a patch of its own at least: directions of the census, its power.
 const PER_PIECE: u64 = 500;

@@ -83,8 +83,8 @@ pub(crate) fn prepare(
     let run = |may_block: &dyn Fn(usize) -> bool| {
         Bvh::build_of(&triangles, may_block, &config, |parts, work| pool.for_each(parts, work))
     };
-    let all = plan.blockers() == triangles.len();
-    let blocks = |t: usize| plan.facts.blocking[t] || plan.everything_blocks();
+    let all = plan.everything_blocks() || plan.blockers() == triangles.len();
+    let blocks = |t: usize| all || plan.facts.blocking[t];
     let by_bvh = plan.structure == Structure::Bvh;
     // Directions end at all triangles, segments at those that may block.
     let bvh = match plan.needs.census || by_bvh && all {
@@ -98,7 +98,7 @@ pub(crate) fn prepare(
             (Some(Box::new(octree)), bytes)
         }
         Structure::None => (Some(Box::new(Nothing)), 0),
-        Structure::Bvh if all || plan.everything_blocks() => (None, bvh.bytes()),
+        Structure::Bvh if all => (None, bvh.bytes()),
         Structure::Bvh => {
             let some = run(&blocks);
             let bytes = some.bytes();

@@ -16,6 +16,9 @@ use super::weld::{Edge, Sets, Welded};
 /// Solid angles computed at most while shells are looked for that part lit places.
 const MOST_ANGLES: usize = 1_000_000;
 
+/// Places that are looked up in a shell's bounds in the time of a solid angle.
+const LOOKS: usize = 16;
+
 /// Shells that are told from each other: two bits each.
 const MOST_SHELLS: usize = 32;
 
@@ -77,7 +80,9 @@ impl Spaces {
             if shell.faces.is_empty() || shells.len() == MOST_SHELLS || known.contains(&own) {
                 continue;
             }
-            let near = lit.iter().filter(|p| shell.holds(**p)).count();
+            let looks = lit.len() / LOOKS;
+            let near = lit.iter().filter(|p| left > looks && shell.holds(**p)).count();
+            left = left.saturating_sub(looks);
             if near == 0 || near * shell.faces.len() > left {
                 continue;
             }

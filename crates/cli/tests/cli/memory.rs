@@ -13,7 +13,7 @@ use crate::support::{box_tri, folder_with, radiosity};
 /// Bytes of an element of a fixed mesh, of a triangle that blocks, and of a triangle's own patch: the
 /// upper bounds of docs/performance/memory.md.
 const PER_ELEMENT: f64 = 450.0;
-const PER_TRIANGLE: f64 = 400.0;
+const PER_TRIANGLE: f64 = 800.0;
 const PER_PIECE: f64 = 500.0;
 
 /// The largest resident size of a solve, and its elements.

@@ -50,6 +50,8 @@ pub struct Facts {
     pub two_sided: bool,
     /// Which triangles may block a segment; the others need not be in what finds occluders.
     pub blocking: Vec<bool>,
+    /// Share of the area of all triangles that those have which may not block.
+    pub open_area: f64,
     /// Nothing blocks, and all light that leaves a surface meets another.
     pub closed: bool,
     /// Large convex polygons among those that may block.
@@ -74,6 +76,11 @@ impl Facts {
         let any = blocking.contains(&true);
         let objects = if any { Objects::of(&triangles, may_block) } else { Objects::default() };
         let surfaces = Surfaces::of(scene);
+        let area = |blocks: bool| -> f64 {
+            let some = scene.ids().zip(&blocking).filter(|(_, b)| **b == blocks);
+            some.map(|(id, _)| scene.area(id)).sum()
+        };
+        let (open, closed) = (area(false), area(true));
         Self {
             triangles: surfaces.areas.len(),
             copies: copies(&triangles),
@@ -87,6 +94,7 @@ impl Facts {
             black: surfaces.black(scene),
             channels: channels(&surfaces.materials),
             two_sided: surfaces.two_sided,
+            open_area: if open > 0.0 { open / (open + closed) } else { 0.0 },
             closed: !any && !surfaces.two_sided && surround(&triangles),
             walls: match any {
                 true => Walls::of(&triangles, may_block, LEAST_WALL, MOST_WALLS),

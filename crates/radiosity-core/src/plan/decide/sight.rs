@@ -8,8 +8,15 @@ use super::super::{Decision, Effect, Structure, Topic, cost};
 use super::Draft;
 use crate::config::Exchange;
 
+/// Fewer facing pairs in different spaces than this are not worth telling apart.
+const LEAST_APART: f64 = 0.01;
+
 /// Proofs must spare this many times what looking for them takes: both are foreseen, not known.
 const WORTH: f64 = 1.5;
+
+/// Triangles that cannot block are left out of what finds occluders if they have this share of the area:
+/// the more, the more segments end at them. It is built twice then, with them for directions.
+const WORTH_PARTING: f64 = 0.02;
 
 impl Draft<'_> {
     pub(super) fn decide_sight(&mut self, shape: &Shape) {
@@ -51,7 +58,7 @@ impl Draft<'_> {
             };
             effect = if facts.nothing_blocks() { Effect::Exact } else { Effect::Stated };
             leaves_out = true;
-        } else if free && blockers < triangles {
+        } else if free && blockers < triangles && facts.open_area >= WORTH_PARTING {
             saves = self.spared(shape, |draft| draft.blockers = blockers);
             choice = format!("segments through {blockers} of {triangles} triangles");
             why = format!(
@@ -62,7 +69,7 @@ impl Draft<'_> {
         } else {
             choice = format!("segments through all {triangles} triangles");
             why = if self.free() {
-                "each may block".into()
+                format!("{blockers} may block; the others are too small to matter")
             } else {
                 "everything is asked for".into()
             };
@@ -117,8 +124,12 @@ impl Draft<'_> {
 
     fn spaces(&mut self, shape: &Shape, spaces: Spaces) {
         let (shells, triangles) = (spaces.shells(), spaces.triangles());
-        if shells == 0 || self.needs.singles || !self.needs.segments {
-            let why = "no closed surface parts lit places";
+        let few = shape.survey.as_ref().is_some_and(|s| s.apart < LEAST_APART * s.facing);
+        if shells == 0 || few || self.needs.singles || !self.needs.segments {
+            let why = match shells {
+                0 => "no closed surface parts lit places",
+                _ => "closed surfaces part few of those that face each other",
+            };
             let choice = "one space".into();
             self.put(Topic::Spaces, choice, false, why.into(), Work::default(), Effect::Exact);
             return;
