@@ -5,7 +5,7 @@ use radiosity_core::plan::{Decision, Effect, Structure, Topic};
 use radiosity_core::{
     Asked, Plan, PlanConfig, RefineConfig, Refined, Sequential, ShootingConfig, refine,
 };
-use scene::{MaterialId, Scene, TriangleId};
+use scene::{MaterialId, Scene, Sides, TriangleId};
 
 use crate::models::{Model, until};
 
@@ -88,6 +88,41 @@ fn a_convex_room_needs_no_occluder_and_no_census() {
     assert!(everything.total_work.rays > 10_000 && everything.total_work.directions > 1000);
     assert!(needed.ledger.imbalance() < 1e-12);
     assert_eq!(needed.ledger, everything.ledger);
+}
+
+#[test]
+fn stiff_open_and_two_sided_scenes_keep_their_light_to_the_bit() {
+    // Closed and stiff: corrections, and rows that are closed.
+    let mut stiff = Model::new();
+    let (wall, lamp) = (stiff.surface(0.95, 0.0), stiff.surface(0.9, 1.0));
+    stiff.cube([wall, lamp, wall, wall, wall, wall]);
+    thing(&mut stiff, [0.3, 0.4, 0.2], [0.5, 0.6, 0.5], wall);
+    // Stiff and convex: no census, no segment.
+    let mut convex = Model::new();
+    let (wall, lamp) = (convex.surface(0.95, 0.0), convex.surface(0.9, 1.0));
+    convex.cube([wall, lamp, wall, wall, wall, wall]);
+    // Open: a wall is missing.
+    let mut open = Model::new();
+    let [wall, lamp, material] = {
+        let (wall, lamp) = (open.surface(0.5, 0.0), open.surface(0.2, 1.0));
+        [wall, lamp, open.surface(0.4, 0.0)]
+    };
+    let p = |i: usize| [(i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64];
+    open.quad([0, 1, 3, 2].map(p), wall);
+    open.quad([4, 6, 7, 5].map(p), lamp);
+    open.quad([0, 4, 5, 1].map(p), wall);
+    thing(&mut open, [0.3, 0.4, 0.2], [0.5, 0.6, 0.5], material);
+    // A panel that is lit on both sides.
+    let mut sided = Model::new();
+    lit_room(&mut sided);
+    let panel = sided.sided(0.5, 0.0, Sides::Both);
+    sided.quad([[0.5, 0.1, 0.1], [0.5, 0.9, 0.1], [0.5, 0.9, 0.8], [0.5, 0.1, 0.8]], panel);
+    for (model, corrected) in [(stiff, true), (convex, true), (open, false), (sided, false)] {
+        let (plan, solved) = both(&model.scene());
+        assert!(plan.decisions.iter().any(|d| d.leaves_out));
+        assert_eq!([&solved[0], &solved[1]].map(|s| s.corrected), [corrected; 2]);
+        same(&solved);
+    }
 }
 
 #[test]

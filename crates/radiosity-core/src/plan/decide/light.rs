@@ -59,7 +59,7 @@ impl Draft<'_> {
 
     fn black(&mut self, shape: &Shape) {
         let share = self.facts.black;
-        let leaves_out = self.free() && share >= MUCH_BLACK;
+        let leaves_out = self.free() && self.physical() && share >= MUCH_BLACK;
         let saves = match leaves_out {
             true => self.spared(shape, |draft| draft.needs.black = false),
             false => Work::default(),

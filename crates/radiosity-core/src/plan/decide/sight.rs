@@ -32,7 +32,7 @@ impl Draft<'_> {
     }
 
     /// Whether the light of a side goes to what it faces alone, and not by an older rule.
-    fn physical(&self) -> bool {
+    pub(super) fn physical(&self) -> bool {
         self.config.exchange == Exchange::OneSided
     }
 
