@@ -22,6 +22,13 @@ const LOOKS: usize = 16;
 /// Shells that are told from each other: two bits each.
 const MOST_SHELLS: usize = 32;
 
+/// A place within this share of a lift of a triangle is on it, and on neither side for occluders that work
+/// in f32; lit places are a lift off their own.
+const NEAR: f64 = 0.25;
+
+/// A triangle that fills less of the view than this, in its own plane, is elsewhere.
+const WIDE: f64 = 0.05;
+
 /// Windings farther than this from a whole number are of places too near a triangle to tell.
 const WHOLE: f64 = 0.1;
 
@@ -34,10 +41,12 @@ pub struct Spaces {
 /// A closed surface.
 #[derive(Clone, Debug)]
 struct Shell {
-    /// Triangles with 1, or −1 for those turned round.
-    faces: Vec<([DVec3; 3], f64)>,
+    /// Triangles with their planes, and 1, or −1 for those turned round.
+    faces: Vec<([DVec3; 3], Plane, f64)>,
     low: DVec3,
     high: DVec3,
+    /// Places nearer than this to a triangle are on it.
+    near: f64,
 }
 
 impl Spaces {
@@ -75,7 +84,7 @@ impl Spaces {
         let mut known: Vec<Vec<u32>> = Vec::new();
         let mut shells = Vec::new();
         for members in &by_shell {
-            let (shell, own) = Shell::of(members, triangles);
+            let (shell, own) = Shell::of(members, triangles, &planes, NEAR * lift);
             // The inside of a thing and its outside are the same shell.
             if shell.faces.is_empty() || shells.len() == MOST_SHELLS || known.contains(&own) {
                 continue;
@@ -124,25 +133,32 @@ impl Spaces {
 impl Shell {
     /// The surface that sides make up, and the numbers of its triangles: a triangle with both of its
     /// sides there is a flap, and no part of it.
-    fn of(members: &[u32], triangles: &[[DVec3; 3]]) -> (Self, Vec<u32>) {
+    fn of(
+        members: &[u32],
+        triangles: &[[DVec3; 3]],
+        planes: &[Option<Plane>],
+        near: f64,
+    ) -> (Self, Vec<u32>) {
         let single: Vec<u32> = members
             .chunk_by(|a, b| a / 2 == b / 2)
             .filter(|sides| sides.len() == 1)
             .map(|sides| sides[0])
             .collect();
-        let faces: Vec<_> = single
-            .iter()
-            .map(|side| (triangles[*side as usize / 2], if side % 2 == 0 { 1.0 } else { -1.0 }))
-            .collect();
-        let corners = || faces.iter().flat_map(|(t, _)| t).copied();
+        let face = |side: &u32| {
+            let triangle = *side as usize / 2;
+            let sign = if side.is_multiple_of(2) { 1.0 } else { -1.0 };
+            Some((triangles[triangle], planes[triangle]?, sign))
+        };
+        let faces: Vec<_> = single.iter().filter_map(face).collect();
+        let corners = || faces.iter().flat_map(|(t, ..)| t).copied();
         let low = corners().fold(DVec3::INFINITY, DVec3::min);
         let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
         let own = single.iter().map(|side| side / 2).collect();
-        (Self { faces, low, high }, own)
+        (Self { faces, low, high, near }, own)
     }
 
     fn holds(&self, place: DVec3) -> bool {
-        place.cmpge(self.low).all() && place.cmple(self.high).all()
+        place.cmpge(self.low - self.near).all() && place.cmple(self.high + self.near).all()
     }
 
     /// How often it winds round a place.
@@ -150,7 +166,14 @@ impl Shell {
         if !self.holds(place) {
             return Some(0);
         }
-        let sum: f64 = self.faces.iter().map(|(t, sign)| sign * solid_angle(*t, place)).sum();
+        let mut sum = 0.0;
+        for (triangle, plane, sign) in &self.faces {
+            let angle = solid_angle(*triangle, place);
+            if angle.abs() > WIDE && plane.height(place).abs() < self.near {
+                return None;
+            }
+            sum += sign * angle;
+        }
         let windings = sum / (4.0 * PI);
         let whole = windings.round();
         ((windings - whole).abs() < WHOLE).then_some(whole as i64)

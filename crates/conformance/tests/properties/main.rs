@@ -10,6 +10,7 @@ mod enclosures;
 mod factors;
 mod invariance;
 mod light;
+mod plan;
 mod rooms;
 
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};

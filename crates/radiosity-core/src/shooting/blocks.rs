@@ -82,7 +82,8 @@ impl Blocks {
         let mut spaces = Vec::new();
         if !needs.singles {
             spaces.extend(receivers.iter().map(|r| occluder.space(r.position + r.normal * lift)));
-            if spaces.windows(2).all(|pair| pair[0] == pair[1]) {
+            let one = spaces.windows(2).all(|pair| pair[0] == pair[1]);
+            if one || pierced(mesh, &spaces, occluder, lift) {
                 spaces.clear();
             }
         }
@@ -175,6 +176,17 @@ impl Blocks {
         let first = spaces.next()??;
         spaces.all(|space| space == Some(first)).then_some(first)
     }
+}
+
+/// Whether an element lies in several spaces, since something seals it in part: its light would go from one
+/// to the other, and so it must if spaces are told apart or not.
+fn pierced(mesh: &Mesh, spaces: &[Option<u64>], occluder: &dyn Occluder, lift: f64) -> bool {
+    mesh.elements.iter().any(|element| {
+        let [a, b, c] = mesh.corners(element.vertices);
+        let middle = (a + b + c) / 3.0 + mesh.root_of(element).normal * lift;
+        let own = occluder.space(middle);
+        element.points.iter().any(|p| spaces[*p as usize] != own)
+    })
 }
 
 /// Which receivers may get light that matters: probes; points of elements that reflect some of it, and

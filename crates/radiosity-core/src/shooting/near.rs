@@ -115,35 +115,40 @@ impl Near {
                 continue;
             }
             for e in patch.elements.clone() {
-                if receivers.want(&mesh.elements[e as usize]) {
-                    self.consider(mesh, &source, e);
-                }
+                self.consider(mesh, &source, e);
             }
         }
         self.arriving.resize(self.points.len() * channels, 0.0);
         self.sort(mesh, receivers);
+        self.begin_runs(self.points.len().div_ceil(RUN) as u32);
     }
 
     /// Puts the points of each element into blocks.
     fn sort(&mut self, mesh: &Mesh, receivers: &Blocks) {
-        for near in &self.elements {
+        for i in 0..self.elements.len() {
+            let near = self.elements[i];
             let element = &mesh.elements[near.element as usize];
+            // Those that no light reaches keep their place: where segments start hangs on it.
+            let last = if receivers.want(element) { near.last } else { near.first };
             let corners = mesh.corners(element.vertices);
             let space = receivers.space_of(mesh, &(near.element..near.element + 1));
             let whole = Block::of_element(corners, mesh.root_of(element).normal, space);
             let mut first = near.first;
-            while first < near.last {
+            while first < last {
                 let run = first / RUN as u32;
-                if self.of_runs.len() <= run as usize {
-                    let start = self.blocks.len() as u32;
-                    self.of_runs.push(start..start);
-                }
-                let end = near.last.min((run + 1) * RUN as u32);
+                self.begin_runs(run + 1);
+                let end = last.min((run + 1) * RUN as u32);
                 self.blocks.push(Block { receivers: first..end, ..whole.clone() });
                 self.of_runs[run as usize].end = self.blocks.len() as u32;
                 first = end;
             }
         }
+    }
+
+    /// Begins runs of points until there are so many.
+    fn begin_runs(&mut self, runs: u32) {
+        let start = self.blocks.len() as u32;
+        self.of_runs.resize(self.of_runs.len().max(runs as usize), start..start);
     }
 
     /// What a shot reads and writes.
