@@ -5,6 +5,7 @@
 mod bench;
 mod built;
 mod ci;
+mod dependencies;
 mod figure;
 mod instructions;
 mod numerics;
@@ -45,6 +46,9 @@ enum Task {
     Bench(Box<bench::Arguments>),
     /// Measure estimators and sweeps, and draw the figures of docs/numerics.md.
     Numerics(numerics::Arguments),
+    /// Count the crates from outside that each of ours needs, and compare them with the table of
+    /// docs/performance.
+    Dependencies(dependencies::Arguments),
     /// Count the instructions of every kernel with valgrind, and compare them with the baseline of
     /// docs/performance.
     Instructions(instructions::Arguments),
@@ -60,6 +64,7 @@ fn main() -> ExitCode {
         Task::Precision(arguments) => precision::run(&root, &arguments),
         Task::Bench(arguments) => bench::run(&root, &arguments),
         Task::Numerics(arguments) => numerics::run(&root, &arguments),
+        Task::Dependencies(arguments) => dependencies::run(&root, &arguments),
         Task::Instructions(arguments) => instructions::run(&root, &arguments),
     };
     match result {
