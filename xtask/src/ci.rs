@@ -23,7 +23,7 @@ pub(crate) enum Job {
     Test,
     /// The documentation builds without a warning.
     Doc,
-    /// Each feature compiles alone, and each crate without any.
+    /// Each crate compiles alone without features, and with each of them.
     Features,
     /// No kernel takes more instructions than its baseline; skipped without valgrind.
     Instructions,
@@ -62,7 +62,8 @@ fn cargo(root: &Path, arguments: &str) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("failed: cargo {arguments}")) }
 }
 
-fn metadata(root: &Path) -> Result<Value, String> {
+/// What cargo knows of the workspace's own crates.
+pub(crate) fn metadata(root: &Path) -> Result<Value, String> {
     let arguments = "metadata --no-deps --format-version 1 --locked";
     let output =
         cargo_command(root, arguments).output().map_err(|e| format!("cargo {arguments}: {e}"))?;
@@ -70,25 +71,29 @@ fn metadata(root: &Path) -> Result<Value, String> {
         .map_err(|e| format!("cargo {arguments}: {e}\n{}", String::from_utf8_lossy(&output.stderr)))
 }
 
-fn cargo_command(root: &Path, arguments: &str) -> Command {
+/// Cargo with words that contain no blanks.
+pub(crate) fn cargo_command(root: &Path, arguments: &str) -> Command {
     let mut command = Command::new(std::env::var("CARGO").unwrap_or_else(|_| "cargo".into()));
     command.current_dir(root).args(arguments.split_whitespace());
     command
 }
 
-/// A check without features and one for each feature, for every crate that has any.
+/// The features of a crate that it names itself.
+pub(crate) fn features(package: &Value) -> Vec<&str> {
+    let names = package["features"].as_object().into_iter().flat_map(|map| map.keys());
+    names.map(String::as_str).filter(|name| *name != "default").collect()
+}
+
+/// A check of every crate by itself, without features, and one for each of its features.
 fn feature_checks(metadata: &Value) -> Vec<String> {
     let mut checks = Vec::new();
     for package in metadata["packages"].as_array().into_iter().flatten() {
-        let features = package["features"].as_object().into_iter().flat_map(|map| map.keys());
-        let features: Vec<_> = features.filter(|name| *name != "default").collect();
-        if features.is_empty() {
-            continue;
-        }
         let name = package["name"].as_str().unwrap_or_default();
         let alone = format!("check --package {name} --locked --no-default-features");
-        checks.push(alone.clone());
-        checks.extend(features.iter().map(|feature| format!("{alone} --features {feature}")));
+        // Tests too: what they need of a feature is behind it.
+        checks.push(format!("{alone} --all-targets"));
+        let each = |feature: &&str| format!("{alone} --features {feature}");
+        checks.extend(features(package).iter().map(each));
     }
     checks
 }
@@ -98,14 +103,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_feature_is_checked_alone() {
+    fn each_crate_is_checked_alone_and_with_each_feature() {
         let metadata = serde_json::json!({ "packages": [
             { "name": "plain", "features": {} },
             { "name": "many", "features": { "default": ["obj"], "gltf": [], "obj": [] } },
         ] });
         let alone = "check --package many --locked --no-default-features";
         let expected = [
-            alone.to_owned(),
+            "check --package plain --locked --no-default-features --all-targets".to_owned(),
+            format!("{alone} --all-targets"),
             format!("{alone} --features gltf"),
             format!("{alone} --features obj"),
         ];

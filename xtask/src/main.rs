@@ -5,6 +5,7 @@
 mod bench;
 mod built;
 mod ci;
+mod dependencies;
 mod figure;
 mod instructions;
 mod needs;
@@ -48,6 +49,9 @@ enum Task {
     Numerics(numerics::Arguments),
     /// Measure what leaving out pays, scene by scene, and draw the tables of docs/plan.md.
     Needs(needs::Arguments),
+    /// Count the crates from outside that each of ours needs, and compare them with the table of
+    /// docs/performance.
+    Dependencies(dependencies::Arguments),
     /// Count the instructions of every kernel with valgrind, and compare them with the baseline of
     /// docs/performance.
     Instructions(instructions::Arguments),
@@ -64,6 +68,7 @@ fn main() -> ExitCode {
         Task::Bench(arguments) => bench::run(&root, &arguments),
         Task::Numerics(arguments) => numerics::run(&root, &arguments),
         Task::Needs(arguments) => needs::run(&root, &arguments),
+        Task::Dependencies(arguments) => dependencies::run(&root, &arguments),
         Task::Instructions(arguments) => instructions::run(&root, &arguments),
     };
     match result {

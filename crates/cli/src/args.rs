@@ -1,7 +1,10 @@
 //! The command line as it is typed.
 
 mod checkpoint;
+#[cfg(feature = "form-factors")]
 mod form_factors;
+mod help;
+mod picture;
 mod shooting;
 mod snapshot;
 
@@ -11,14 +14,19 @@ use std::time::Duration;
 use clap::{Parser, Subcommand, ValueEnum};
 
 pub(crate) use checkpoint::CheckpointArgs;
+#[cfg(feature = "form-factors")]
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
+pub(crate) use help::CONVERTED;
+pub(crate) use picture::PictureArgs;
 pub(crate) use shooting::{ShootingArgs, SplitArg};
 pub(crate) use snapshot::Every;
 
 /// Turns a triangle scene into its diffuse global illumination.
-///
-/// Without a command, solves the bundled Cornell box and writes out/cornell.glb, .png, .csv
-/// and .json.
+#[cfg_attr(
+    feature = "gltf",
+    doc = "\n\nWithout a command, solves the bundled Cornell box and writes out/cornell.glb, .csv, .json and, \
+           where it can, .png."
+)]
 #[derive(Debug, Parser)]
 #[command(name = "radiosity", version, max_term_width = 100)]
 pub(crate) struct Args {
@@ -34,12 +42,14 @@ pub(crate) enum Command {
     Plan(PlanArgs),
     /// Write the form factors between groups or triangles: the share of the light leaving one
     /// that arrives at the other
+    #[cfg(feature = "form-factors")]
     FormFactors(FormFactorsArgs),
     /// Rewrite a scene file in another format, unlit
     Convert(ConvertArgs),
     /// Measure how far two solutions (.csv) are apart
     Compare(CompareArgs),
     /// Check known answers on this machine: closed forms, known solutions, the bundled scenes
+    #[cfg(feature = "verify")]
     Verify(VerifyArgs),
 }
 
@@ -113,27 +123,9 @@ pub(crate) enum NeedArg {
 }
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "\
-Examples:
-  radiosity solve room.tri -o room.csv                       exitance of each input triangle
-  radiosity solve hall.obj -o hall.glb -o hall.png           lit model and picture
-  radiosity solve room.tri --error 0.5% --max-time 60s -o fine.csv --report fine.json
-  radiosity solve room.tri --elements 50000 --converge 0.01% -o fixed.csv
-  radiosity solve room.tri --probe points.csv -o at-points.probe.csv
-  radiosity solve hall.obj --max-memory 2GB --snapshot 30s -o hall.glb
-  radiosity solve hall.obj --error 0.1% -o hall.glb --checkpoint hall.ckpt
-  radiosity solve hall.obj --error 0.1% -o hall.glb --checkpoint hall.ckpt --resume hall.ckpt
-
-Formats by extension:
-  .csv  triangle,area,B_r,B_g,B_b: area mean of exitance, a row per input triangle
-  .tri  the elements, exitance as colours 0-255     .ply  elements with float exitance
-  .glb  vertex colours and linear _RADIOSITY        .png  a picture
-  .probe.csv  exitance at the places of --probe
-
-Exit codes: 0 done, or stopped by a limit or Ctrl-C; 1 failed, 2 wrong command line.")]
+#[command(after_help = help::solve())]
 pub(crate) struct SolveArgs {
-    /// Scene file: .tri, .vs3, .obj (with its .mtl), .gltf or .glb [default: the bundled Cornell box]
-    #[arg(value_name = "SCENE")]
+    #[arg(value_name = "SCENE", help = help::SCENE_OR_BUNDLED)]
     pub(crate) scene: Option<PathBuf>,
 
     /// Where to write, as often as you like; the extension names the format, `-` is CSV on
@@ -203,28 +195,9 @@ pub(crate) struct SolveArgs {
     pub(crate) picture: PictureArgs,
 }
 
-/// How .png, and the colours in .ply and .glb, look.
-#[derive(Clone, Debug, clap::Args)]
-#[command(next_help_heading = "Pictures")]
-pub(crate) struct PictureArgs {
-    /// Camera of the scene to look through, by name [default: the first, or one chosen to
-    /// see most of the scene]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) camera: Option<String>,
-
-    /// Picture size in pixels
-    #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = size)]
-    pub(crate) size: (u32, u32),
-
-    /// Brighten by this many stops (doublings), relative to the automatic exposure
-    #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub(crate) exposure: f64,
-}
-
 #[derive(Debug, clap::Args)]
 pub(crate) struct PlanArgs {
-    /// Scene file: .tri, .vs3, .obj (with its .mtl), .gltf or .glb
-    #[arg(value_name = "SCENE")]
+    #[arg(value_name = "SCENE", help = help::SCENE)]
     pub(crate) scene: PathBuf,
 
     /// Error that a solve would be asked for, unless --elements fixes the work
@@ -243,17 +216,12 @@ pub(crate) struct PlanArgs {
 }
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "\
-.tri    a scene again; what it cannot hold is listed as warnings
-.glb    a scene again, grouped by material, with its surfaces in `extras`
-.ply    the geometry alone, showing its emittance")]
+#[command(after_help = help::convert())]
 pub(crate) struct ConvertArgs {
-    /// Scene file to read: .tri, .vs3, .obj, .gltf or .glb
-    #[arg(value_name = "IN")]
+    #[arg(value_name = "IN", help = help::SCENE)]
     pub(crate) input: PathBuf,
 
-    /// File to write: .tri, .glb or .ply
-    #[arg(value_name = "OUT")]
+    #[arg(value_name = "OUT", help = format!("File to write: {CONVERTED}"))]
     pub(crate) output: PathBuf,
 
     #[command(flatten)]
@@ -282,6 +250,7 @@ pub(crate) struct CompareArgs {
     pub(crate) at_most: Option<f64>,
 }
 
+#[cfg(feature = "verify")]
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Prints a row per case: what must come out, what came out, how far off that is, how far off it
@@ -337,14 +306,6 @@ fn quantity(text: &str, units: &[(&str, f64)]) -> Option<f64> {
     (value > 0.0 && value.is_finite()).then_some(value)
 }
 
-/// A size in pixels: `1024x768`.
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let side = |t: &str| t.parse::<u32>().ok().filter(|n| (1..=16_384).contains(n));
-    text.split_once(['x', 'X', '×'])
-        .and_then(|(w, h)| Some((side(w)?, side(h)?)))
-        .ok_or_else(|| "expected a width and a height from 1 to 16384, such as 1024x768".into())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -366,7 +327,5 @@ mod tests {
         assert_eq!(memory("4GiB"), Ok(4 << 30));
         assert_eq!(memory("500 MB"), Ok(500_000_000));
         assert!(["-1", "0", "lots", "4TB"].iter().all(|t| memory(t).is_err()));
-        assert_eq!(size("640x480"), Ok((640, 480)));
-        assert!(["640", "0x1", "1x99999", "x"].iter().all(|t| size(t).is_err()));
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::absent;
+
 /// What went wrong, and with which exit code.
 #[derive(Debug)]
 pub(crate) enum Failure {
@@ -29,4 +31,20 @@ macro_rules! failed_from {
     )*};
 }
 
-failed_from!(scene_import::Error, output::Error, radiosity_par::Error);
+failed_from!(radiosity_par::Error);
+
+/// A format that this build leaves out is no fault of the file.
+impl From<scene_import::Error> for Failure {
+    fn from(error: scene_import::Error) -> Self {
+        match error.kind() {
+            scene_import::ErrorKind::FeatureOff => Self::Usage(error.to_string()),
+            _ => Self::Failed(error.to_string()),
+        }
+    }
+}
+
+impl From<output::Error> for Failure {
+    fn from(error: output::Error) -> Self {
+        absent::format(&error).unwrap_or_else(|| Self::Failed(error.to_string()))
+    }
+}

@@ -3,6 +3,7 @@
 //! Raw flags (`args`) become checked settings (`settings`, pure), which a command runs
 //! (`commands`). `pipeline` is the way of the light, one call per arrow.
 
+mod absent;
 mod args;
 mod bundled;
 mod checkpoint;
@@ -26,17 +27,10 @@ use args::{Args, Command};
 use failure::Failure;
 
 fn main() -> ExitCode {
-    let args = Args::parse();
-    let result = match args.command {
-        None => commands::solve::bundled(),
-        Some(Command::Solve(args)) => settings::solve(*args).and_then(|s| commands::solve::run(&s)),
-        Some(Command::Plan(args)) => commands::plan::run(&args),
-        Some(Command::Convert(args)) => commands::convert::run(&args),
-        Some(Command::FormFactors(args)) => {
-            settings::form_factors(args).and_then(|s| commands::form_factors::run(&s))
-        }
-        Some(Command::Compare(args)) => commands::compare::run(&args),
-        Some(Command::Verify(args)) => commands::verify::run(&args),
+    let result = match Args::try_parse() {
+        Ok(args) => run(args),
+        // Help and the version are among the errors.
+        Err(error) => Err(absent::of(&error).unwrap_or_else(|| error.exit())),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -47,5 +41,22 @@ fn main() -> ExitCode {
                 Failure::Failed(_) => 1,
             })
         }
+    }
+}
+
+/// Runs a command with its flags resolved.
+fn run(args: Args) -> Result<(), Failure> {
+    match args.command {
+        None => commands::solve::bundled(),
+        Some(Command::Solve(args)) => settings::solve(*args).and_then(|s| commands::solve::run(&s)),
+        Some(Command::Plan(args)) => commands::plan::run(&args),
+        Some(Command::Convert(args)) => commands::convert::run(&args),
+        #[cfg(feature = "form-factors")]
+        Some(Command::FormFactors(args)) => {
+            settings::form_factors(args).and_then(|s| commands::form_factors::run(&s))
+        }
+        Some(Command::Compare(args)) => commands::compare::run(&args),
+        #[cfg(feature = "verify")]
+        Some(Command::Verify(args)) => commands::verify::run(&args),
     }
 }

@@ -125,7 +125,7 @@ impl Budget {
             Target::Stdout | Target::Probes(_) => false,
         };
         let (drawn, (width, height)) =
-            (settings.outputs.iter().any(picture), settings.picture.size);
+            (settings.outputs.iter().any(picture), settings.picture.size());
         let pixels = u64::from(width) * u64::from(height);
         let copies = if settings.snapshot.is_some() { PER_COPIED_ELEMENT } else { 0 };
         let before = before(scene.triangles().len());

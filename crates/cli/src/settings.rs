@@ -1,5 +1,6 @@
 //! The command line resolved: defaults filled in, contradictions refused. Pure.
 
+#[cfg(feature = "form-factors")]
 mod form_factors;
 mod goal;
 mod keeping;
@@ -11,11 +12,13 @@ use radiosity_core::{Correction, Exchange, MeshConfig, Schedule, Split};
 use radiosity_par::Loop;
 use scene_import::SidesRule;
 
+use crate::absent;
 use crate::args::{
     AccelArg, Every, NeedArg, PictureArgs, ReadArgs, ShootingArgs, SidesArg, SolveArgs, SplitArg,
     WorkArgs,
 };
 use crate::failure::Failure;
+#[cfg(feature = "form-factors")]
 pub(crate) use form_factors::{FormFactors, TableTarget, form_factors};
 pub(crate) use goal::{DEFAULT_CONVERGE, DEFAULT_ERROR};
 pub(crate) use goal::{Goal, Limits};
@@ -265,7 +268,8 @@ fn target(path: PathBuf) -> Result<Target, Failure> {
     if path.to_string_lossy().to_ascii_lowercase().ends_with(".probe.csv") {
         return Ok(Target::Probes(path));
     }
-    Format::from_path(&path).map_err(|e| Failure::Usage(format!("-o {}: {e}", path.display())))?;
+    Format::from_path(&path)
+        .map_err(|e| absent::format(&e).unwrap_or_else(|| Failure::Usage(format!("-o {e}"))))?;
     Ok(Target::File(path))
 }
 
@@ -274,13 +278,13 @@ pub(crate) fn output_options(
     picture: &PictureArgs,
     scene: &scene::Scene,
 ) -> Result<output::Options, Failure> {
-    let camera = match &picture.camera {
+    let camera = match picture.camera() {
         None => None,
         Some(name) => Some(find_camera(name, scene)?),
     };
     let exposure =
         if picture.exposure == 0.0 { Exposure::Auto } else { Exposure::Stops(picture.exposure) };
-    Ok(output::Options { camera, exposure, size: picture.size, ..output::Options::default() })
+    Ok(output::Options { camera, exposure, size: picture.size(), ..output::Options::default() })
 }
 
 fn find_camera(name: &str, scene: &scene::Scene) -> Result<scene::Camera, Failure> {
@@ -324,6 +328,7 @@ mod tests {
         assert_eq!((s.limits.memory, s.snapshot), (Some(1_000_000), Some(Every::Shots(9))));
     }
 
+    #[cfg(feature = "checkpoint")]
     #[test]
     fn checkpoints_have_a_file_and_a_time() {
         let keeping = |line| resolve(line).unwrap().keeping;

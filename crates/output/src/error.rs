@@ -21,6 +21,8 @@ pub struct Error {
 pub enum ErrorKind {
     /// No format goes by this file name extension.
     UnknownExtension(Option<String>),
+    /// This build lacks the feature that writes the format: the feature, named as the extension is.
+    FeatureOff(&'static str),
     /// An element whose exitance is not finite, or too large for the format.
     Exitance {
         /// Its index in the solution.
@@ -164,6 +166,10 @@ impl fmt::Display for ErrorKind {
             Self::UnknownExtension(Some(e)) => {
                 write!(f, "unknown file name extension \".{e}\", expected {}", Format::EXTENSIONS)
             }
+            Self::FeatureOff(name) => write!(
+                f,
+                "this program was built without the feature `{name}`: it writes no .{name}"
+            ),
             Self::Exitance { element } => {
                 write!(f, "element {element}: exitance is not finite, or too large for the format")
             }

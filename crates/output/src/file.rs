@@ -6,7 +6,11 @@ use std::path::{Path, PathBuf};
 use scene::{Scene, Solution};
 
 use crate::check::{Width, check};
-use crate::{Error, Format, Options, csv, glb, picture, ply, tri};
+#[cfg(feature = "glb")]
+use crate::glb;
+#[cfg(feature = "png")]
+use crate::picture;
+use crate::{Error, Format, Options, csv, ply, tri};
 
 /// A file that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,7 +28,7 @@ pub struct Written {
 /// old file as it was and nothing beside it.
 ///
 /// # Errors
-/// An unknown extension, a solution that does not belong to the scene or is not finite,
+/// An extension that is unknown or whose feature is off, a solution that does not belong to the scene or is not finite,
 /// an option outside its range, or what the file system answers.
 pub fn write_file(
     path: &Path,
@@ -57,8 +61,14 @@ pub fn write(
         Format::Csv => csv::write(out, scene, solution),
         Format::Tri => tri::write(out, scene, solution),
         Format::Ply => ply::write(out, scene, solution, options.exposure),
+        #[cfg(feature = "glb")]
         Format::Glb => glb::write(out, scene, solution, options.exposure),
+        #[cfg(not(feature = "glb"))]
+        Format::Glb => format.check(),
+        #[cfg(feature = "png")]
         Format::Png => picture::write(out, scene, solution, options),
+        #[cfg(not(feature = "png"))]
+        Format::Png => format.check(),
     }
 }
 

@@ -1,6 +1,9 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+#[cfg(any(feature = "glb", feature = "png"))]
+mod basis;
+#[cfg(feature = "png")]
 pub mod camera;
 mod check;
 pub mod compare;
@@ -8,9 +11,12 @@ pub mod csv;
 mod error;
 mod file;
 mod format;
+#[cfg(feature = "glb")]
 mod glb;
+#[cfg(feature = "matrix")]
 pub mod matrix;
 mod options;
+#[cfg(feature = "png")]
 pub mod picture;
 mod ply;
 pub mod tone;

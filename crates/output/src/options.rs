@@ -13,7 +13,7 @@ const MAX_SAMPLES: u32 = 16;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Where a picture is taken from; without it the scene's first camera, or
-    /// [`camera::automatic`](crate::camera::automatic) where it has none.
+    /// `camera::automatic` where it has none.
     pub camera: Option<Camera>,
     /// How exitance becomes display light, in pictures and vertex colours.
     pub exposure: Exposure,

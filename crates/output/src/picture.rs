@@ -19,7 +19,7 @@ use crate::tone::{BACKGROUND, Exposure, Reading, curve, srgb_byte};
 use crate::{Error, Options, camera};
 
 pub(crate) use raster::ScreenTriangle;
-pub(crate) use view::{View, basis};
+pub(crate) use view::View;
 
 /// A picture in linear exitance.
 #[derive(Clone, Debug, PartialEq)]

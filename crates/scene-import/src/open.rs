@@ -71,13 +71,17 @@ fn read(format: Format, source: &Source<'_>, options: &Options) -> Result<Import
         Format::Obj => crate::obj::read(source, options),
         #[cfg(feature = "gltf")]
         Format::Gltf | Format::Glb => crate::gltf::read(source, format, options),
-        #[cfg(not(all(feature = "obj", feature = "gltf")))]
-        _ => Err(Error::new(
-            ErrorKind::FeatureOff,
-            source.name,
-            format!(
-                "this build cannot read {format}: it was made without that feature of scene-import"
-            ),
-        )),
+        #[cfg(not(feature = "obj"))]
+        Format::Obj => Err(left_out("obj", source, format)),
+        #[cfg(not(feature = "gltf"))]
+        Format::Gltf | Format::Glb => Err(left_out("gltf", source, format)),
     }
+}
+
+/// What a file needs that this build lacks.
+#[cfg(not(all(feature = "obj", feature = "gltf")))]
+fn left_out(feature: &str, source: &Source<'_>, format: Format) -> Error {
+    let message =
+        format!("this program was built without the feature `{feature}`: it reads no {format}");
+    Error::new(ErrorKind::FeatureOff, source.name, message)
 }

@@ -1,8 +1,16 @@
 //! Flags for work that may be cut off.
 
+#[cfg(feature = "checkpoint")]
 use std::path::PathBuf;
+#[cfg(feature = "checkpoint")]
 use std::time::Duration;
 
+/// None of them without the feature `checkpoint`.
+#[cfg(not(feature = "checkpoint"))]
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(crate) struct CheckpointArgs {}
+
+#[cfg(feature = "checkpoint")]
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = "Work that may be cut off")]
 pub(crate) struct CheckpointArgs {

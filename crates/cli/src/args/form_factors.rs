@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::{SidesArg, share};
+use super::{SidesArg, help, share};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -24,8 +24,7 @@ closed scene sum to 1; in an open scene the rest leaves it, or meets backs.
 
 Exit codes: 0 done, 1 failed, 2 wrong command line.")]
 pub(crate) struct FormFactorsArgs {
-    /// Scene file: .tri, .vs3, .obj (with its .mtl), .gltf or .glb
-    #[arg(value_name = "SCENE")]
+    #[arg(value_name = "SCENE", help = help::SCENE)]
     pub(crate) scene: PathBuf,
 
     /// Where to write, as often as you like; the extension names the format, `-` is CSV on

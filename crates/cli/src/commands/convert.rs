@@ -1,9 +1,9 @@
 //! `radiosity convert`: a scene file in another format, unlit.
 
-use output::Format;
+use output::{ErrorKind, Format};
 use tri_io::Writer;
 
-use crate::args::ConvertArgs;
+use crate::args::{CONVERTED, ConvertArgs};
 use crate::commands::solve;
 use crate::failure::Failure;
 use crate::screen::{self, say};
@@ -14,8 +14,9 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     let path = &args.output;
     let format = match Format::from_path(path) {
         Ok(format @ (Format::Tri | Format::Glb | Format::Ply)) => format,
+        Err(error) if matches!(error.kind(), ErrorKind::FeatureOff(_)) => return Err(error.into()),
         _ => {
-            let message = format!("{}: expected a name in .tri, .glb or .ply", path.display());
+            let message = format!("{}: expected a name in {CONVERTED}", path.display());
             return Err(Failure::Usage(message));
         }
     };

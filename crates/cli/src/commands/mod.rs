@@ -2,7 +2,9 @@
 
 pub(crate) mod compare;
 pub(crate) mod convert;
+#[cfg(feature = "form-factors")]
 pub(crate) mod form_factors;
 pub(crate) mod plan;
 pub(crate) mod solve;
+#[cfg(feature = "verify")]
 pub(crate) mod verify;

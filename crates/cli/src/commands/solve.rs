@@ -21,7 +21,12 @@ use crate::snapshot::Snapshots;
 use crate::{bundled, files};
 
 /// Where the program without arguments writes.
-const BUNDLED_OUTPUTS: [&str; 3] = ["out/cornell.glb", "out/cornell.png", "out/cornell.csv"];
+const BUNDLED_OUTPUTS: &[&str] = &[
+    "out/cornell.glb",
+    #[cfg(feature = "png")]
+    "out/cornell.png",
+    "out/cornell.csv",
+];
 const BUNDLED_REPORT: &str = "out/cornell.json";
 
 /// A form-factor defect above this share of the emitted power is worth a warning: the church,
@@ -34,10 +39,11 @@ const WRONG_SIDE_WORTH_SAYING: f64 = 1e-3;
 
 /// Solves the bundled scene into the folder `out`.
 pub(crate) fn bundled() -> Result<(), Failure> {
+    bundled::check()?;
     std::fs::create_dir_all("out").map_err(|e| Failure::Failed(format!("out: {e}")))?;
     run(&Solve {
         scene: None,
-        outputs: BUNDLED_OUTPUTS.map(|p| Target::File(p.into())).into(),
+        outputs: BUNDLED_OUTPUTS.iter().map(|path| Target::File(path.into())).collect(),
         report: Some(BUNDLED_REPORT.into()),
         probe: None,
         snapshot: None,
@@ -50,7 +56,7 @@ pub(crate) fn bundled() -> Result<(), Failure> {
             options: scene_import::Options::default(),
             exchange: radiosity_core::Exchange::OneSided,
         },
-        picture: PictureArgs { camera: None, size: (1024, 768), exposure: 0.0 },
+        picture: PictureArgs::default(),
     })
 }
 

@@ -1,12 +1,15 @@
 //! Where the state of the work is kept, and where it goes on from.
 
-use std::path::{Path, PathBuf};
+#[cfg(feature = "checkpoint")]
+use std::path::Path;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::args::CheckpointArgs;
 use crate::failure::Failure;
 
 /// How often a checkpoint is written when the command line does not say.
+#[cfg(feature = "checkpoint")]
 const DEFAULT_EVERY: Duration = Duration::from_secs(30);
 
 /// Where the state of the work is kept, and where it goes on from.
@@ -17,7 +20,14 @@ pub(crate) struct Keeping {
     pub(crate) resume: Option<PathBuf>,
 }
 
+/// Nothing is kept without the feature `checkpoint`.
+#[cfg(not(feature = "checkpoint"))]
+pub(super) fn keeping(_: CheckpointArgs) -> Result<Keeping, Failure> {
+    Ok(Keeping::default())
+}
+
 /// Resolves the flags for work that may be cut off.
+#[cfg(feature = "checkpoint")]
 pub(super) fn keeping(args: CheckpointArgs) -> Result<Keeping, Failure> {
     let CheckpointArgs { checkpoint, every, resume } = args;
     for (flag, path) in [("--checkpoint", &checkpoint), ("--resume", &resume)] {

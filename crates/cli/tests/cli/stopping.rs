@@ -33,7 +33,7 @@ mod signals {
         command
             .current_dir(folder)
             .args(["solve", "box.tri", "--error", "1e-6", "--max-time", "1h"])
-            .args(["-o", "a.csv", "-o", "a.glb", "--report", "a.json"])
+            .args(["-o", "a.csv", "-o", "a.ply", "--report", "a.json"])
             .stderr(Stdio::piped());
         // Tests may run under nohup, which the program would take as a word to itself.
         let heed_hangup = || {
@@ -85,7 +85,7 @@ mod signals {
             // Walls shine by what they reflect.
             let lit = exitance(&folder.path().join("a.csv"));
             assert!(lit.len() == 12 && lit.iter().all(|b| *b > 0.0), "{lit:?}");
-            assert_eq!(&std::fs::read(folder.path().join("a.glb")).unwrap()[..4], b"glTF");
+            assert_eq!(&std::fs::read(folder.path().join("a.ply")).unwrap()[..4], b"ply\n");
             assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 4, "nothing beside");
         }
     }
@@ -112,7 +112,7 @@ mod signals {
         send(&child, libc::SIGINT);
         let status = child.wait().unwrap();
         assert!(status.code() == Some(130) || status.signal() == Some(libc::SIGINT), "{status}");
-        assert!(!folder.path().join("a.glb").exists());
+        assert!(!folder.path().join("a.ply").exists());
     }
 }
 
@@ -197,7 +197,7 @@ fn snapshots_are_light_on_its_way_and_change_nothing() {
         run.stderr()
     };
     solve("plain.csv", &[]);
-    solve("a.csv", &["-o", "a.glb", "--snapshot", "every:40", "--report", "a.json"]);
+    solve("a.csv", &["-o", "a.ply", "--snapshot", "every:40", "--report", "a.json"]);
     let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
     assert!(bytes("a.csv") == bytes("plain.csv"));
     let report = report(folder.path());
@@ -210,10 +210,10 @@ fn snapshots_are_light_on_its_way_and_change_nothing() {
     };
     let mut distances = Vec::new();
     for (i, snapshot) in (1..).zip(snapshots) {
-        let files = [format!("a.{i:05}.csv"), format!("a.{i:05}.glb")];
+        let files = [format!("a.{i:05}.csv"), format!("a.{i:05}.ply")];
         assert_eq!(snapshot["files"], serde_json::json!(files));
         assert!(snapshot["shots"].as_u64().unwrap() >= 40 * i);
-        assert_eq!(&bytes(&files[1])[..4], b"glTF");
+        assert_eq!(&bytes(&files[1])[..4], b"ply\n");
         distances.push(distance(&files[0]));
         let run = radiosity(folder.path(), &["compare", &files[0], "a.csv"]);
         assert_eq!(run.code(), 0, "{}", run.stderr());

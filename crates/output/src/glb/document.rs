@@ -5,7 +5,7 @@ use scene::{Camera, Face, Material, Scene, Sides};
 use serde_json::{Map, Value, json};
 
 use super::buffer::{Geometry, Primitive, SECTIONS};
-use crate::picture::basis;
+use crate::basis::basis;
 use crate::{Error, ErrorKind};
 
 const FLOAT: u32 = 5126;

@@ -43,7 +43,14 @@ fn each_side_with_area_shows_what_it_emits() {
 fn every_format_takes_it() {
     let scene = scene();
     let lit = (scene.clone(), unlit(&scene));
-    for format in [Format::Csv, Format::Tri, Format::Ply, Format::Glb] {
+    let formats = [
+        Format::Csv,
+        Format::Tri,
+        Format::Ply,
+        #[cfg(feature = "glb")]
+        Format::Glb,
+    ];
+    for format in formats {
         assert!(!bytes(format, &lit, &Options::default()).is_empty());
     }
     let csv = String::from_utf8(bytes(Format::Csv, &lit, &Options::default())).unwrap();

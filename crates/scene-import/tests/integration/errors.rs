@@ -87,15 +87,24 @@ fn mistakes_in_obj_text_are_placed() {
     }
 }
 
-#[cfg(not(feature = "obj"))]
 #[test]
 fn a_format_left_out_of_the_build_is_named() {
-    let error = open_bytes("a.obj", b"", &Options::default()).unwrap_err();
-    assert_eq!(error.kind(), ErrorKind::FeatureOff);
-    assert_eq!(
-        error.to_string(),
-        "a.obj: this build cannot read OBJ: it was made without that feature of scene-import"
-    );
+    for (name, feature, format, on) in [
+        ("a.obj", "obj", "OBJ", cfg!(feature = "obj")),
+        ("a.gltf", "gltf", "glTF", cfg!(feature = "gltf")),
+        ("a.glb", "gltf", "GLB", cfg!(feature = "gltf")),
+    ] {
+        let opened = open_bytes(name, b"", &Options::default());
+        if on {
+            let off = opened.is_err_and(|error| error.kind() == ErrorKind::FeatureOff);
+            assert!(!off, "{name}");
+            continue;
+        }
+        let error = opened.unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::FeatureOff);
+        let message = format!("this program was built without the feature `{feature}`");
+        assert_eq!(error.to_string(), format!("{name}: {message}: it reads no {format}"));
+    }
 }
 
 #[cfg(feature = "gltf")]
