@@ -13,6 +13,7 @@ mod files;
 mod interrupt;
 mod memory;
 mod pipeline;
+mod prepared;
 mod report;
 mod screen;
 mod settings;

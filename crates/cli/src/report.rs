@@ -12,7 +12,8 @@ use serde::Serialize;
 
 use crate::failure::Failure;
 use crate::memory;
-use crate::pipeline::{self, Prepared, Solved};
+use crate::pipeline::{self, Solved};
+use crate::prepared::Prepared;
 use crate::settings::{Goal, Solve};
 use crate::snapshot::Snapshot;
 use crate::stages::StageSeconds;

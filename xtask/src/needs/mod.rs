@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value_t = 5)]
     repeat: usize,
 
-    /// Only the cases with this in their name; writes nothing
+    /// Only the cases with this in their name; the records of the others stay
     #[arg(long)]
     only: Option<String>,
 
@@ -53,12 +53,25 @@ pub(crate) fn run(root: &Path, arguments: &Arguments) -> Result<(), String> {
         records.push(record);
     }
     let complaints: Vec<String> = records.iter().filter_map(Record::complaint).collect();
-    if arguments.only.is_none() {
-        let text = serde_json::to_string_pretty(&records).map_err(|e| e.to_string())? + "\n";
-        write(&root.join(RECORDS), &text)?;
-        draw(root, &records)?;
-    }
+    let records = match arguments.only {
+        Some(_) => among(read(root)?, records),
+        None => records,
+    };
+    let text = serde_json::to_string_pretty(&records).map_err(|e| e.to_string())? + "\n";
+    write(&root.join(RECORDS), &text)?;
+    draw(root, &records)?;
     if complaints.is_empty() { Ok(()) } else { Err(complaints.join("\n")) }
+}
+
+/// Old records with fresh ones in the place of those of the same cases.
+fn among(mut old: Vec<Record>, fresh: Vec<Record>) -> Vec<Record> {
+    for record in fresh {
+        match old.iter_mut().find(|o| o.name == record.name && o.flags == record.flags) {
+            Some(place) => *place = record,
+            None => old.push(record),
+        }
+    }
+    old
 }
 
 fn read(root: &Path) -> Result<Vec<Record>, String> {

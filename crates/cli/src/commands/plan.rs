@@ -14,6 +14,7 @@ use crate::failure::Failure;
 use crate::files;
 use crate::memory;
 use crate::pipeline;
+use crate::prepared;
 use crate::report::{PlanReport, total_area};
 use crate::screen::{count, percent, result, rough, seconds};
 use crate::settings::{self, DEFAULT_CONVERGE, Goal};
@@ -40,7 +41,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
         None => Goal::Error(args.error),
     };
     let how = (goal, Correction::Auto, false);
-    let prepared = pipeline::prepare(&imported.scene, &work, &read, how, Loop::default())?;
+    let prepared = prepared::prepare(&imported.scene, &work, &read, how, Loop::default())?;
     let config = work.mesh(imported.scene.triangles().len());
     let (mesh, census, time) = pipeline::mesh(&imported.scene, &prepared, &config, &read);
     solve::warn_of_coarseness(&imported.scene, &mesh);

@@ -13,7 +13,8 @@ use scene_import::Imported;
 use crate::args::{AccelArg, PictureArgs};
 use crate::failure::Failure;
 use crate::memory::Budget;
-use crate::pipeline::{self, INTERRUPT, Prepared, Solved};
+use crate::pipeline::{self, INTERRUPT, Solved};
+use crate::prepared::{self, Prepared};
 use crate::report::{Report, Run};
 use crate::screen::{self, count, percent, rough, say, seconds};
 use crate::settings::{self, Goal, Read, Solve, Target, Work};
@@ -96,7 +97,7 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     }
     let timed = settings.limits.time.is_some();
     let goal = (settings.goal, settings.shooting.correction, timed);
-    let prepared = pipeline::prepare(
+    let prepared = prepared::prepare(
         &imported.scene,
         &settings.work,
         &settings.read,

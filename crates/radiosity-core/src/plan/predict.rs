@@ -47,6 +47,9 @@ impl Sub for Work {
 const ELEMENTS_OF_ONE_PERCENT: f64 = 15_000.0;
 const GROWTH_BY_ERROR: f64 = 1.3;
 
+/// The last mesh is finer than the scene's own pieces by this factor at least.
+const LEAST_FINER: f64 = 4.0;
+
 /// Receiver points per element and per piece of a triangle, about.
 const POINTS_PER_ELEMENT: f64 = 0.55;
 const POINTS_PER_PIECE: f64 = 1.3;
@@ -89,11 +92,14 @@ impl Shape<'_> {
 
     /// Elements of the last mesh.
     fn elements(&self) -> f64 {
-        let asked = match self.config.elements {
-            Some(n) => n as f64,
-            None => ELEMENTS_OF_ONE_PERCENT * (0.01 / self.config.error).powf(GROWTH_BY_ERROR),
-        };
-        asked.max(self.pieces)
+        match self.config.elements {
+            Some(n) => (n as f64).max(self.pieces),
+            None => {
+                let finer = (0.01 / self.config.error).powf(GROWTH_BY_ERROR);
+                // No error is stated of fewer meshes than two.
+                (ELEMENTS_OF_ONE_PERCENT * finer).max(LEAST_FINER * self.pieces)
+            }
+        }
     }
 
     /// Sweeps until the unshot share is reached: fewer than half of what plain shooting takes, thanks to

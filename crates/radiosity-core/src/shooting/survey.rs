@@ -49,28 +49,30 @@ pub(crate) fn survey(mesh: &Mesh, occluder: &dyn Occluder) -> Survey {
     let sorted = Blocks::of_at_most(MOST, mesh, &mesh.points, occluder, &needs, lift);
     let detail = Detail::of(&ShootingConfig::until(1.0));
     let mut survey = Survey::default();
-    for (i, patch) in sample(mesh).into_iter().enumerate() {
+    for patch in sample(mesh) {
+        let mut facing = 0.0;
         let shot =
             Shot::new(occluder, &[], mesh, patch, Exchange::OneSided, &needs, &detail, Rgb::ZERO);
         let shot = Shot { space: sorted.space_of(mesh, &patch.elements), ..shot };
         survey.pairs += mesh.points.len() as f64;
         for block in sorted.all() {
             let range = block.receivers.start as usize..block.receivers.end as usize;
-            let facing = mesh.points[range.clone()].iter().filter(|r| shot.faces(r)).count() as f64;
+            let own = mesh.points[range.clone()].iter().filter(|r| shot.faces(r)).count() as f64;
             survey.blocks += MOST as f64 / blocks::MOST as f64;
-            survey.facing += facing;
+            facing += own;
             match shot.reach(block) {
                 Reach::Behind => survey.behind += range.len() as f64,
-                Reach::Apart => survey.apart += facing,
-                Reach::Hidden => survey.hidden += facing,
-                Reach::Open => survey.open += facing,
+                Reach::Apart => survey.apart += own,
+                Reach::Hidden => survey.hidden += own,
+                Reach::Open => survey.open += own,
                 Reach::Asked => {}
             }
         }
         // Receivers in a space without a lamp are in no block.
         let left_out = sorted.left_out as f64;
-        let share = survey.facing / (survey.pairs - left_out * (i + 1) as f64).max(1.0);
-        survey.apart += left_out * share;
+        let own: f64 = facing / (mesh.points.len() as f64 - left_out).max(1.0);
+        survey.facing += facing + left_out * own;
+        survey.apart += left_out * own;
     }
     survey
 }
