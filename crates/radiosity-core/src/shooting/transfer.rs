@@ -190,7 +190,7 @@ impl Shot<'_> {
 
     /// On which side of the shooter the receiver lies and with which normal it sees it:
     /// `None` if light cannot go between them.
-    #[inline]
+    #[inline(always)]
     fn facing(&self, cell: &Cell, receiver: &ReceiverPoint) -> Option<(f64, DVec3)> {
         let height = self.normal.dot(receiver.position - cell.centroid);
         let in_plane = IN_PLANE * self.extent;
@@ -206,7 +206,7 @@ impl Shot<'_> {
     }
 
     /// Whether the cell must be split for this receiver.
-    #[inline]
+    #[inline(always)]
     fn too_coarse(
         &self,
         cell: &Cell,
@@ -228,7 +228,7 @@ impl Shot<'_> {
     }
 
     /// Form factor, and where on the cell a segment should start if not at its centroid.
-    #[inline]
+    #[inline(always)]
     fn form_factor(
         &self,
         cell: &Cell,
@@ -280,7 +280,8 @@ impl<const N: usize> Run<'_, N> {
         let last = self.scratch.waiting.len();
         // What shines alike everywhere and is seen whole is one cell, however bright.
         let alike = matches!(cell.parts, Parts::Quarters(_)) && cell.open == 1.0;
-        let whole = alike && shot.exact && !self.segments;
+        let segments = self.segments;
+        let whole = alike && shot.exact && !segments;
         for i in first..last {
             let index = self.scratch.waiting[i];
             let receiver = &self.receivers.points[index as usize];
@@ -295,7 +296,7 @@ impl<const N: usize> Run<'_, N> {
             if form_factor <= 0.0 {
                 continue;
             }
-            if !self.segments {
+            if !segments {
                 self.arrives(cell, index, form_factor);
                 continue;
             }
@@ -333,7 +334,7 @@ impl<const N: usize> Run<'_, N> {
     }
 
     /// Books a form factor to a cell in sight.
-    #[inline]
+    #[inline(always)]
     fn arrives(&mut self, cell: &Cell, index: u32, form_factor: f64) {
         let slot = &mut self.arriving[index as usize];
         let light: [f64; N] = self.shot.channels.pick(cell.unshot);
