@@ -3,7 +3,6 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
 
 mod features;
-mod memory;
 mod plan;
 mod solve;
 mod statement;

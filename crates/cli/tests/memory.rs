@@ -3,12 +3,16 @@
 //! Skipped with a line where the system does not tell how large a program was.
 
 #![expect(clippy::print_stdout, reason = "tests say what they saw, and that they are skipped")]
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
+
+#[path = "cli/support.rs"]
+mod support;
 
 use std::path::Path;
 
 use serde_json::Value;
 
-use crate::support::{box_tri, folder_with, radiosity};
+use support::{box_tri, folder_with, radiosity};
 
 /// Bytes of an element of a fixed mesh, of a triangle that blocks, and of a triangle's own patch: the
 /// upper bounds of docs/performance/memory.md.
@@ -21,7 +25,7 @@ fn peak(folder: &Path, scene: &str, flags: &str) -> Option<[f64; 2]> {
     let mut args = vec!["solve", scene, "--no-statement", "--report", "r.json"];
     args.extend(flags.split(' '));
     let run = radiosity(folder, &args);
-    assert_eq!(run.code(), 0, "{}", run.stderr());
+    assert_eq!(run.code(), 0, "{}{}", run.stdout(), run.stderr());
     let text = std::fs::read_to_string(folder.join("r.json")).unwrap();
     let report: Value = serde_json::from_str(&text).unwrap();
     let number = |value: &Value| value.as_f64();
