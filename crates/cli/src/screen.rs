@@ -23,13 +23,15 @@ pub(crate) fn warning(message: &str) {
 
 /// Says what a level of refinement reached.
 pub(crate) fn level(report: &LevelReport, elapsed: f64) {
-    let error = report.statement.map(|s| s.triangles.e1.total()).filter(|e| e.is_finite());
-    say(&format!(
-        "{} elements: {}, {}",
-        count(report.elements as u64),
-        error.map_or("no statement from one mesh".into(), |e| format!("error {}", percent(e))),
-        seconds(elapsed)
-    ));
+    let known = match report.statement.map(|s| s.triangles.e1) {
+        Some(parts) if parts.total().is_finite() => format!("error {}", percent(parts.total())),
+        Some(parts) if parts.mesh.is_finite() => {
+            format!("mesh error {}, form factors not judged yet", percent(parts.mesh))
+        }
+        _ => "no statement from one mesh".into(),
+    };
+    let elements = count(report.elements as u64);
+    say(&format!("{elements} elements: {known}, {}", seconds(elapsed)));
 }
 
 /// Says how wrong the light may be, and if nothing is known of that, why.

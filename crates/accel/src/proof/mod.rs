@@ -2,7 +2,7 @@
 //!
 //! Four facts about the triangles alone: which can block nothing ([`never_block`]), which make up
 //! large convex [`Walls`], what stands in separate [`Objects`], and which [`Spaces`] are sealed off
-//! from each other. [`Proven`] answers with them in front of any [`Occluder`].
+//! from each other. [`Proven`] answers with them in front of any [`crate::Occluder`].
 
 mod hull;
 mod object;

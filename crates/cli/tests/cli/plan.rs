@@ -68,6 +68,23 @@ fn a_convex_box_casts_no_ray() {
 }
 
 #[test]
+fn small_meshes_say_what_is_known_of_them() {
+    let (folder, _) = folder_with("box.tri", box_tri().as_bytes());
+    let said = |more: &[&str]| {
+        let args = [&["solve", "box.tri", "--error", "5%", "-o", "a.csv"], more].concat();
+        radiosity(folder.path(), &args).stderr()
+    };
+    let needed = said(&[]);
+    assert!(needed.contains("no statement from one mesh"), "{needed}");
+    assert!(needed.contains("form factors not judged yet"), "{needed}");
+    // A limit of time may make any mesh the last.
+    for flags in [&["--need", "everything"][..], &["--max-time", "1h"]] {
+        let all = said(flags);
+        assert!(!all.contains("not judged") && all.matches(": error ").count() > 1, "{all}");
+    }
+}
+
+#[test]
 fn wrong_flags_are_refused() {
     let (folder, _) = folder_with("box.tri", box_tri().as_bytes());
     for (flags, part) in [
