@@ -45,8 +45,8 @@ pub(crate) fn prepare(
     let run = |may_block: &dyn Fn(usize) -> bool| {
         Bvh::build_of(&triangles, may_block, &config, |parts, work| pool.for_each(parts, work))
     };
-    let all = plan.everything_blocks() || plan.blockers() == triangles.len();
-    let blocks = |t: usize| all || plan.facts.blocking[t];
+    let all = plan.whole_structure();
+    let blocks = |t: usize| plan.in_structure(t);
     let by_bvh = plan.structure == Structure::Bvh;
     // Directions end at all triangles, segments at those that may block.
     let bvh = match plan.needs.census || by_bvh && all {

@@ -1,6 +1,5 @@
 //! What a solve has to do for a scene, and what it may leave out.
 
-use accel::proof::Plane;
 use scene::Rgb;
 
 use crate::mesh::Root;
@@ -93,9 +92,4 @@ pub(crate) fn lit_channels(roots: &[Root]) -> [bool; 3] {
 pub(crate) fn black(roots: &[Root]) -> Vec<bool> {
     let lit = lit_channels(roots);
     roots.iter().map(|root| (0..3).all(|c| !lit[c] || root.reflectance[c] == 0.0)).collect()
-}
-
-/// The plane of a root's lit side through a place.
-pub(crate) fn plane_at(normal: glam::DVec3, place: glam::DVec3) -> Plane {
-    Plane { normal, offset: normal.dot(place) }
 }

@@ -17,8 +17,6 @@ pub(super) struct Case {
     /// Its name in the table.
     pub(super) name: &'static str,
     pub(super) source: Source,
-    /// What it can do without.
-    pub(super) little: &'static str,
     pub(super) flags: &'static str,
 }
 
@@ -27,24 +25,23 @@ const STATED: &str = "--error 1%";
 
 /// Each scene on a mesh of a fixed number of elements, and refined; the largest on a fixed mesh alone.
 pub(super) fn all() -> Vec<Case> {
-    let made = |name, make, little| {
-        [FIXED, STATED].map(|flags| Case { name, source: Source::Made(make), little, flags })
-    };
+    let made =
+        |name, make| [FIXED, STATED].map(|flags| Case { name, source: Source::Made(make), flags });
     let bundled = |name, file, ways: [&'static str; 2]| {
-        ways.map(|flags| Case { name, source: Source::Bundled(file), little: "", flags })
+        ways.map(|flags| Case { name, source: Source::Bundled(file), flags })
     };
     let large = |name, file| {
         let flags = "--elements 4000 --converge 5% --no-statement";
-        [Case { name, source: Source::Bundled(file), little: "", flags }]
+        [Case { name, source: Source::Bundled(file), flags }]
     };
     let pairs = [
-        made("convex box", scenes::convex, "segments, the census"),
-        made("open plane", scenes::plane, "segments"),
-        made("grey room", scenes::grey, "two channels, most segments"),
-        made("two rooms", scenes::two_rooms, "the room without a lamp"),
-        made("99 % black", scenes::black, "receivers on black surfaces"),
-        made("lamp behind a wall", scenes::behind, "most segments"),
-        made("small obstacle", scenes::obstacle, "most segments"),
+        made("convex box", scenes::convex),
+        made("open plane", scenes::plane),
+        made("grey room", scenes::grey),
+        made("two rooms", scenes::two_rooms),
+        made("99 % black", scenes::black),
+        made("lamp behind a wall", scenes::behind),
+        made("small obstacle", scenes::obstacle),
         bundled("Cornell box", "cornell.obj", [FIXED, STATED]),
         bundled("gallery", "gallery.glb", [FIXED, "--error 5%"]),
         bundled("blocks", "blocks.tri", [FIXED, "--error 5%"]),

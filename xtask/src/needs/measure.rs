@@ -12,7 +12,6 @@ use super::cases::Case;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Record {
     pub(super) name: String,
-    pub(super) little: String,
     pub(super) flags: String,
     /// Topics of the decisions that leave something out.
     pub(super) left_out: Vec<String>,
@@ -89,7 +88,6 @@ pub(super) fn measure(
     let [seconds_needed, seconds_everything] = seconds;
     Ok(Record {
         name: case.name.into(),
-        little: case.little.into(),
         flags: case.flags.into(),
         left_out: decisions.iter().map(|d| text(&d["topic"])).collect(),
         exact: decisions.iter().all(|d| text(&d["effect"]).starts_with("none")),
@@ -188,7 +186,6 @@ mod tests {
         let side = |seconds: [f64; 3]| Side { work: work.clone(), seconds: seconds.into() };
         Record {
             name: "a".into(),
-            little: String::new(),
             flags: "-f".into(),
             left_out: Vec::new(),
             exact: true,

@@ -41,7 +41,13 @@ impl Plane {
         let size = (b - a).abs().max((c - a).abs()).max_element();
         // Scaled to unit size first: areas of tiny or huge triangles leave the range of f64.
         let normal = ((b - a) / size).cross((c - a) / size).try_normalize()?;
-        Some(Self { normal, offset: normal.dot(a) })
+        Some(Self::through(a, normal))
+    }
+
+    /// The plane through a place with this unit normal.
+    #[must_use]
+    pub fn through(place: DVec3, normal: DVec3) -> Self {
+        Self { normal, offset: normal.dot(place) }
     }
 
     /// How far a place lies in front of the plane.

@@ -168,7 +168,7 @@ impl Joiner<'_> {
                 let next = |i: usize| places[(i + 1) % places.len()];
                 let side = |i: usize| {
                     let normal = plane.normal.cross(next(i) - places[i]).normalize_or_zero();
-                    Plane { normal, offset: normal.dot(places[i]) }
+                    Plane::through(places[i], normal)
                 };
                 let sides = (0..places.len()).map(side).collect();
                 let fan = |i: usize| (places[i] - places[0]).cross(next(i) - places[0]);

@@ -24,10 +24,14 @@ fn solve(scene: &Scene, plan: &Plan) -> Refined {
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
     let config = BvhConfig::default();
     let bvh = Bvh::build(&triangles, &config);
-    let blocks = |t: usize| plan.everything_blocks() || plan.facts.blocking[t];
-    let some = Bvh::build_of(&triangles, blocks, &config, |parts, work| {
-        parts.iter_mut().for_each(work);
-    });
+    let some = Bvh::build_of(
+        &triangles,
+        |t| plan.in_structure(t),
+        &config,
+        |parts, work| {
+            parts.iter_mut().for_each(work);
+        },
+    );
     let structure: &dyn Occluder = match plan.structure {
         Structure::None => &Nothing,
         _ => &some,

@@ -110,16 +110,19 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Whether the solver asks anything of the hierarchy: for directions or for segments.
+    /// Whether a triangle of the scene belongs into what finds occluders.
+    ///
+    /// # Panics
+    /// If the scene has no such triangle.
     #[must_use]
-    pub fn needs_structure(&self) -> bool {
-        self.needs.segments || self.needs.census
+    pub fn in_structure(&self, triangle: usize) -> bool {
+        self.all_block || self.facts.blocking[triangle]
     }
 
-    /// Whether triangles are in the structure whether they may block or not: nothing is left out, or
-    /// there are but few that may not.
+    /// Whether all of them do: each may block, nothing is left out, or those that may not are too small to
+    /// matter.
     #[must_use]
-    pub fn everything_blocks(&self) -> bool {
+    pub fn whole_structure(&self) -> bool {
         self.all_block
     }
 

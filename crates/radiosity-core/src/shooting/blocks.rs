@@ -59,19 +59,8 @@ struct Place {
 }
 
 impl Blocks {
-    /// Sorts out the receivers that may get light, and puts them into blocks.
+    /// Sorts out the receivers that may get light, and puts them into blocks of at most so many.
     pub(super) fn of(
-        mesh: &Mesh,
-        receivers: &[ReceiverPoint],
-        occluder: &dyn Occluder,
-        needs: &Needs,
-        lift: f64,
-    ) -> Self {
-        Self::of_at_most(MOST, mesh, receivers, occluder, needs, lift)
-    }
-
-    /// The same, of at most so many receivers each.
-    pub(super) fn of_at_most(
         most: usize,
         mesh: &Mesh,
         receivers: &[ReceiverPoint],
@@ -221,7 +210,7 @@ fn ends(most: usize, open: &[Place], last: &Place, next: &Place, extent: f64) ->
     if next.index != last.index + 1 || next.space != last.space || open.len() == most {
         return true;
     }
-    let plane = needs::plane_at(last.normal, last.position);
+    let plane = Plane::through(last.position, last.normal);
     let same = next.normal == last.normal && plane.height(next.position).abs() <= FLAT * extent;
     !same && open.len() >= FEW.min(most / 2)
 }
@@ -234,7 +223,7 @@ impl Block {
     pub(super) fn of_element(corners: [DVec3; 3], normal: DVec3, space: Option<u64>) -> Self {
         let [a, b, c] = corners;
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        Self { receivers: 0..0, low, high, plane: Some(needs::plane_at(normal, a)), space }
+        Self { receivers: 0..0, low, high, plane: Some(Plane::through(a, normal)), space }
     }
 
     fn of(places: &[Place], extent: f64) -> Self {
@@ -243,7 +232,7 @@ impl Block {
         for place in places {
             (low, high) = (low.min(place.position), high.max(place.position));
         }
-        let through = needs::plane_at(first.normal, first.position);
+        let through = Plane::through(first.position, first.normal);
         let flat = |p: &Place| {
             p.normal == first.normal && through.height(p.position).abs() <= FLAT * extent
         };

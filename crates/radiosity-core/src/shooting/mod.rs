@@ -133,7 +133,7 @@ impl<'a, E: Executor> Shooting<'a, E> {
             area.add(element.area);
         }
         let lift = SEGMENT_LIFT * mesh.extent;
-        let blocks = Blocks::of(mesh, &receivers, occluder, &config.needs, lift);
+        let blocks = Blocks::of(blocks::MOST, mesh, &receivers, occluder, &config.needs, lift);
         let emitted = emitted.value() * sides(config.exchange);
         let absorption = absorption.value();
         Self {

@@ -34,7 +34,7 @@ impl Shot<'_> {
             return asked;
         }
         let in_plane = IN_PLANE * self.extent * SURE;
-        let plane = Plane { normal: self.normal, offset: self.normal.dot(self.corners[0]) };
+        let plane = Plane::through(self.corners[0], self.normal);
         if plane.heights(block.low, block.high)[1] <= in_plane {
             return Reach::Behind;
         }

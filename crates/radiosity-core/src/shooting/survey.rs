@@ -46,7 +46,7 @@ pub(crate) struct Survey {
 pub(crate) fn survey(mesh: &Mesh, occluder: &dyn Occluder) -> Survey {
     let needs = Needs { singles: false, ..Needs::EVERYTHING };
     let lift = SEGMENT_LIFT * mesh.extent;
-    let sorted = Blocks::of_at_most(MOST, mesh, &mesh.points, occluder, &needs, lift);
+    let sorted = Blocks::of(MOST, mesh, &mesh.points, occluder, &needs, lift);
     let detail = Detail::of(&ShootingConfig::until(1.0));
     let mut survey = Survey::default();
     for patch in sample(mesh) {

@@ -21,7 +21,7 @@ fn solve(scene: &Scene, plan: &Plan, asked: Asked) -> Refined {
     let bvh = Bvh::build(&triangles, &BvhConfig::default());
     let some = Bvh::build_of(
         &triangles,
-        |t| plan.facts.blocking[t] || plan.everything_blocks(),
+        |t| plan.in_structure(t),
         &BvhConfig::default(),
         |parts, work| parts.iter_mut().for_each(work),
     );
@@ -80,7 +80,7 @@ fn a_convex_room_needs_no_occluder_and_no_census() {
     lit_room(&mut model);
     let (plan, solved) = both(&model.scene());
     assert!(plan.facts.closed && plan.facts.nothing_blocks());
-    assert!(!plan.needs.segments && !plan.needs.census && !plan.needs_structure());
+    assert!(!plan.needs.segments && !plan.needs.census);
     assert_eq!(plan.structure, Structure::None);
     same(&solved);
     let [needed, everything] = &solved;

@@ -77,13 +77,16 @@ impl Draft<'_> {
 
     fn splitting(&mut self) {
         let [least, median, greatest] = self.facts.sizes;
-        let why = format!(
+        let mut why = format!(
             "triangles are {} across (least {}, greatest {}) in a scene of {}",
             short(median),
             short(least),
             short(greatest),
             short(self.facts.extent)
         );
+        if self.facts.copies > 0 {
+            why += &format!("; {} copies of earlier ones have no elements", self.facts.copies);
+        }
         let choice = match self.config.elements {
             None => "where light is not what neighbours foretell, longest edges first",
             Some(_) => "everywhere alike, longest edges first",
