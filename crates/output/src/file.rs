@@ -62,7 +62,7 @@ pub fn write(
         Format::Tri => tri::write(out, scene, solution),
         Format::Ply => ply::write(out, scene, solution, options.exposure),
         #[cfg(feature = "glb")]
-        Format::Glb => glb::write(out, scene, solution, options.exposure),
+        Format::Glb => glb::write(out, scene, solution, options),
         #[cfg(not(feature = "glb"))]
         Format::Glb => format.check(),
         #[cfg(feature = "png")]

@@ -30,4 +30,6 @@ pub use file::{Written, replace_file, write, write_file};
 pub use format::Format;
 pub use options::Options;
 pub use tone::Exposure;
+#[cfg(feature = "glb")]
+pub use glb::lit::check as check_document;
 pub use unlit::unlit;

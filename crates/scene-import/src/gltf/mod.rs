@@ -6,9 +6,11 @@
 mod accessor;
 mod budget;
 mod document;
+mod kept;
 mod layer;
 mod primitive;
 mod range;
+mod restore;
 mod stated;
 mod surface;
 mod uri;
@@ -21,6 +23,7 @@ use crate::open::Source;
 use crate::{DiagnosticKind, Error, Format, Imported, Options};
 use budget::Budget;
 use document::Parsed;
+use kept::Keeper;
 use stated::Stated;
 use surface::Surfaces;
 use walk::Placed;
@@ -50,7 +53,7 @@ pub(crate) fn read(
     format: Format,
     options: &Options,
 ) -> Result<Imported, Error> {
-    let parsed = Parsed::new(source)?;
+    let parsed = Parsed::new(source, options.keep_document)?;
     let mut assembler = Assembler::new(source.name, options.sides);
     let stated = Stated::new(&parsed.document, source.name, &mut assembler)?;
     range::check(source.name, parsed.document.as_json(), &stated)?;
@@ -61,6 +64,7 @@ pub(crate) fn read(
     );
     let mut surfaces = Surfaces::new(source, &parsed, &stated);
     let mut runs = Vec::new();
+    let mut keeper = Keeper::new(options.keep_document);
     for placed in walk::walk(&parsed.document, &stated, source.name)? {
         let Placed { node, world } = &placed;
         let path = format!("nodes[{}]", node.index());
@@ -91,7 +95,8 @@ pub(crate) fn read(
             let path = format!("{path}.mesh[{}].primitives[{}]", mesh.index(), primitive.index());
             runs.push(Run { first: assembler.triangle_count(), path: path.clone() });
             let place = primitive::Place { path: &path, mesh: mesh.index(), world: *world, group };
-            primitive::add(
+            let first = TriangleId::from(assembler.triangle_count());
+            let added = primitive::add(
                 &primitive,
                 &place,
                 &parsed,
@@ -99,9 +104,13 @@ pub(crate) fn read(
                 &mut budget,
                 &mut assembler,
             )?;
+            keeper.add([node.index(), mesh.index(), primitive.index()], first, &added);
         }
     }
-    Ok(assembler.finish(format, |id| place(&runs, id)))
+    drop(surfaces);
+    let document = keeper.finish(parsed, source, &mut assembler);
+    let imported = assembler.finish(format, |id| place(&runs, id));
+    Ok(Imported { document, ..imported })
 }
 
 fn place(runs: &[Run], id: TriangleId) -> String {
