@@ -28,8 +28,8 @@ pub use compare::{Comparison, compare};
 pub use error::{Error, ErrorKind};
 pub use file::{Written, replace_file, write, write_file};
 pub use format::Format;
-pub use options::Options;
-pub use tone::Exposure;
 #[cfg(feature = "glb")]
 pub use glb::lit::check as check_document;
+pub use options::Options;
+pub use tone::Exposure;
 pub use unlit::unlit;

@@ -43,11 +43,8 @@ fn unlit(
     json: gltf::json::Root,
     keep_text: bool,
 ) -> Result<(gltf::json::Root, Option<String>), gltf::Error> {
-    let text: Cow<'_, [u8]> = if file.starts_with(b"glTF") {
-        Glb::from_slice(file)?.json
-    } else {
-        Cow::Borrowed(file)
-    };
+    let text: Cow<'_, [u8]> =
+        if file.starts_with(b"glTF") { Glb::from_slice(file)?.json } else { Cow::Borrowed(file) };
     let kept = |text: &[u8]| keep_text.then(|| String::from_utf8_lossy(text).into_owned());
     match restore::restore(&text) {
         None => Ok((json, kept(&text))),

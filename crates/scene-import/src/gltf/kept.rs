@@ -40,14 +40,7 @@ impl Keeper {
             added.corners.iter().map(|triangle| triangle.map(|i| i as u32)).collect()
         });
         let corners = Arc::clone(corners);
-        self.shapes.push(Shape {
-            node,
-            mesh,
-            primitive,
-            first,
-            corners,
-            mirrored: added.mirrored,
-        });
+        self.shapes.push(Shape { node, mesh, primitive, first, corners, mirrored: added.mirrored });
     }
 
     /// The document with all that it names, if anybody wants it. An image that cannot be read

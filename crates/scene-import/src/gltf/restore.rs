@@ -1,6 +1,8 @@
 //! A document that this project has lit, as it was before: its own materials, and the colours it
 //! had where the light now stands.
 
+use std::collections::HashMap;
+
 use serde_json::{Map, Value};
 
 /// The member of `extras` that is ours.
@@ -19,15 +21,11 @@ pub(super) fn restore(json: &[u8]) -> Option<Vec<u8>> {
     if !lit {
         return None;
     }
-    for material in list(&mut root, "materials") {
-        if let Some(original) = take_ours(material).and_then(|mut ours| ours.remove("original")) {
-            *material = original;
-        }
-    }
+    let lit_forms = restore_materials(&mut root);
     for mesh in list(&mut root, "meshes") {
         if let Some(primitives) = mesh.get_mut("primitives").and_then(Value::as_array_mut) {
             primitives.retain_mut(|primitive| {
-                take_ours(primitive).is_none_or(|ours| unlight(primitive, &ours))
+                take_ours(primitive).is_none_or(|ours| unlight(primitive, &ours, &lit_forms))
             });
         }
     }
@@ -35,8 +33,38 @@ pub(super) fn restore(json: &[u8]) -> Option<Vec<u8>> {
     serde_json::to_vec(&root).ok()
 }
 
+/// Gives each material back what it was. Those at the end that are lit forms of others go, and are
+/// returned by their numbers: with whose form they are, or nothing where there was no material.
+fn restore_materials(root: &mut Value) -> HashMap<u64, Value> {
+    let mut lit_forms = HashMap::new();
+    let Some(materials) = root.get_mut("materials").and_then(Value::as_array_mut) else {
+        return lit_forms;
+    };
+    for (number, material) in (0..).zip(materials.iter_mut()) {
+        let mut ours = take_ours(material).unwrap_or_default();
+        if let Some(original) = ours.remove("original") {
+            *material = original;
+        } else if let Some(of) = ours.remove("litFormOf") {
+            lit_forms.insert(number, of);
+        }
+    }
+    while lit_forms.contains_key(&(materials.len() as u64).wrapping_sub(1)) {
+        materials.pop();
+    }
+    let none_left = materials.is_empty();
+    if let (true, Some(root)) = (none_left, root.as_object_mut()) {
+        // The format forbids empty arrays.
+        root.remove("materials");
+    }
+    lit_forms
+}
+
 /// Takes the light out of a primitive; `false` for one that shows the back of another.
-fn unlight(primitive: &mut Value, ours: &Map<String, Value>) -> bool {
+fn unlight(
+    primitive: &mut Value,
+    ours: &Map<String, Value>,
+    lit_forms: &HashMap<u64, Value>,
+) -> bool {
     if ours.get("face").and_then(Value::as_str) == Some("back") {
         return false;
     }
@@ -46,15 +74,26 @@ fn unlight(primitive: &mut Value, ours: &Map<String, Value>) -> bool {
     if let Some(attributes) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
         attributes.remove("COLOR_0");
         attributes.remove("_RADIOSITY");
-        if let Some(colours) = attributes.remove("_COLOR_0") {
-            attributes.insert("COLOR_0".to_owned(), colours);
-        }
+        // The document's own colours were moved on by one.
+        let lit = std::mem::take(attributes);
+        attributes.extend(lit.into_iter().map(|(name, values)| (moved_back(&name), values)));
     }
-    let none = ours.get("material").and_then(Value::as_str) == Some("none");
-    if let (true, Some(primitive)) = (none, primitive.as_object_mut()) {
-        primitive.remove("material");
+    let material = primitive.get("material").and_then(Value::as_u64);
+    match material.and_then(|material| lit_forms.get(&material)) {
+        Some(Value::Null) => drop(primitive.as_object_mut().map(|p| p.remove("material"))),
+        Some(of) => primitive["material"] = of.clone(),
+        None => {}
     }
     true
+}
+
+/// `COLOR_1` was `COLOR_0` before there was light, and so on.
+fn moved_back(name: &str) -> String {
+    let number = name.strip_prefix("COLOR_").and_then(|number| number.parse::<u32>().ok());
+    match number.and_then(|number| number.checked_sub(1)) {
+        Some(before) => format!("COLOR_{before}"),
+        None => name.to_owned(),
+    }
 }
 
 /// Our member of an object's extras, taken out of them.

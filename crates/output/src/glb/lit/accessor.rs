@@ -46,7 +46,8 @@ impl<'d> Accessors<'d> {
     /// Reads an accessor, sparse entries included.
     pub(super) fn read(&self, number: usize) -> Result<Entries, Error> {
         self.entries(number).ok_or_else(|| {
-            let what = format!("accessors[{number}]: expected entries that lie within their buffer");
+            let what =
+                format!("accessors[{number}]: expected entries that lie within their buffer");
             Error::new(ErrorKind::Document(what))
         })
     }

@@ -42,25 +42,33 @@ pub(super) fn is_skinned(primitive: &Value) -> bool {
     attributes.is_some_and(|a| a.keys().any(|k| k.starts_with("JOINTS_")))
 }
 
-/// The attributes of a primitive, but for those that the light replaces. Its own colours go on
-/// under another name.
+/// The name that an attribute has beside the light, which takes the place of `COLOR_0`: each set of
+/// colours goes on under the next number. Blender 5.0 fails on some files with a second attribute
+/// of a name that is not glTF's own, so none is made up.
+pub(super) fn moved(name: &str) -> String {
+    let number = name.strip_prefix("COLOR_").and_then(|number| number.parse::<u32>().ok());
+    match number.and_then(|number| number.checked_add(1)) {
+        Some(next) => format!("COLOR_{next}"),
+        None => name.to_owned(),
+    }
+}
+
+/// The attributes of a primitive, but for light that is there already.
 pub(super) fn of(primitive: &Value, accessors: &Accessors<'_>) -> Result<Vec<Attribute>, Error> {
     let mut attributes = Vec::new();
     let own = primitive.get("attributes").and_then(Value::as_object);
     for (name, accessor) in own.into_iter().flatten() {
-        let renamed = match name.as_str() {
-            "_RADIOSITY" | "_COLOR_0" => continue,
-            "COLOR_0" => "_COLOR_0",
-            name => name,
-        };
+        if name == "_RADIOSITY" {
+            continue;
+        }
         let entries = read(accessor, accessors)?;
-        let blend = match renamed {
+        let blend = match name.as_str() {
             "NORMAL" => Blend::Direction,
             "TANGENT" => Blend::Tangent,
-            _ if entries.layout.is_continuous() || is_geometry(renamed) => Blend::Linear,
+            _ if entries.layout.is_continuous() || is_geometry(name) => Blend::Linear,
             _ => Blend::Nearest,
         };
-        attributes.push(Attribute { name: Name::Own(renamed.to_owned()), blend, entries });
+        attributes.push(Attribute { name: Name::Own(moved(name)), blend, entries });
     }
     let targets = primitive.get("targets").and_then(Value::as_array);
     for (number, target) in targets.into_iter().flatten().enumerate() {

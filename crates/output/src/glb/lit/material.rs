@@ -84,13 +84,19 @@ impl Materials {
         let mut lit: Vec<_> = self.places.iter().map(|(from, to)| (*to, *from)).collect();
         lit.sort_unstable();
         for (to, from) in lit {
-            let material = match from.and_then(|from| materials.get(from)) {
-                Some(original) => shown(original),
-                None => shown(&json!({})),
-            };
+            let original = from.and_then(|from| materials.get(from)).cloned();
+            let original = original.unwrap_or_else(|| json!({}));
+            let mut lit = shown(&original);
             match materials.get_mut(to) {
-                Some(place) => *place = material,
-                None => materials.push(material),
+                Some(place) => {
+                    add_extras(&mut lit, json!({ "original": original }));
+                    *place = lit;
+                }
+                None => {
+                    // Whose lit form it is; nothing's, for what had no material.
+                    add_extras(&mut lit, json!({ "litFormOf": from }));
+                    materials.push(lit);
+                }
             }
         }
     }
@@ -113,7 +119,7 @@ fn look(material: &Value) -> Look {
 /// The lit form of a material: unlit, so that a viewer shows the light in the vertices and adds
 /// none, and white unless a texture colours it. `doubleSided` goes, as the back of a surface has
 /// light of its own and is there as faces of its own. The extensions for surfaces must not stand
-/// beside unlit. What it was is kept beside it.
+/// beside unlit.
 fn shown(original: &Value) -> Value {
     let mut lit = original.clone();
     let Some(members) = lit.as_object_mut() else { return json!({}) };
@@ -129,7 +135,6 @@ fn shown(original: &Value) -> Value {
         extensions.retain(|name, _| !name.starts_with("KHR_materials_"));
         extensions.insert("KHR_materials_unlit".to_owned(), json!({}));
     }
-    add_extras(&mut lit, json!({ "original": original }));
     lit
 }
 
@@ -147,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_changed_in_a_material_is_kept_beside_it() {
+    fn a_lit_material_keeps_what_does_not_contradict_it() {
         let original = json!({
             "name": "red", "doubleSided": true, "alphaMode": "BLEND",
             "pbrMetallicRoughness": { "baseColorFactor": [0.8, 0.1, 0.1, 0.5] },
@@ -160,7 +165,6 @@ mod tests {
         assert_eq!(lit.get("doubleSided"), None);
         assert_eq!(lit["pbrMetallicRoughness"]["baseColorFactor"], json!([1.0, 1.0, 1.0, 0.5]));
         assert_eq!(lit["extensions"], json!({ "KHR_materials_unlit": {}, "EXT_other": {} }));
-        assert_eq!(lit["extras"]["mine"], 1);
-        assert_eq!(lit["extras"]["radiosity"]["original"], original);
+        assert_eq!(lit["extras"], json!({ "mine": 1 }));
     }
 }

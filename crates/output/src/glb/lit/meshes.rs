@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use scene::Face;
 use serde_json::{Map, Value, json};
 
-use super::attribute::Name;
+use super::attribute::{self, Name};
 use super::faces::Faces;
 use super::material::Materials;
 use super::slots::{Numbers, Slots};
@@ -128,10 +128,9 @@ fn lit_primitive(
         *attributes = json!({});
         let targets = members.get_mut("targets").and_then(Value::as_array_mut);
         targets.into_iter().flatten().for_each(|target| *target = json!({}));
-    } else if let Some(attributes) = attributes.as_object_mut()
-        && let Some(colours) = attributes.remove("COLOR_0")
-    {
-        attributes.insert("_COLOR_0".to_owned(), colours);
+    } else if let Some(attributes) = attributes.as_object_mut() {
+        let own = std::mem::take(attributes);
+        attributes.extend(own.into_iter().map(|(name, values)| (attribute::moved(&name), values)));
     }
     for column in faces.columns {
         let numbers = Numbers {
@@ -155,9 +154,6 @@ fn lit_primitive(
     }
     let material = index(&primitive, "material");
     let mut ours = json!({ "lit": true });
-    if material.is_none() {
-        ours["material"] = json!("none");
-    }
     if faces.face == Face::Back {
         // A reader of surfaces already has this one: it is the back of another.
         ours["face"] = json!("back");

@@ -28,9 +28,10 @@ impl Light<'_> {
             let corners = ordered(shape, triangle);
             for (corner, place) in corners.into_iter().zip(self.scene.corners(triangle)) {
                 // An element ends at each corner, unless it lies under another triangle.
-                let points = mine.iter().filter(|e| e.face == face).flat_map(|e| {
-                    self.solution.corners(e).into_iter().zip(e.corner_exitance)
-                });
+                let points = mine
+                    .iter()
+                    .filter(|e| e.face == face)
+                    .flat_map(|e| self.solution.corners(e).into_iter().zip(e.corner_exitance));
                 let nearest = points.min_by(|(p, _), (q, _)| {
                     p.distance_squared(place).total_cmp(&q.distance_squared(place))
                 });
