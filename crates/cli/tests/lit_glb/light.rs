@@ -120,3 +120,22 @@ fn the_lit_file_is_read_as_the_scene_that_it_was() {
     }
     assert_eq!(first.primitives("sheet").len(), second.primitives("sheet").len());
 }
+
+#[test]
+fn a_file_of_our_own_making_is_lit_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = "Triangle\n200 100 50 255 255 255\n0 0 0\n1 0 0\n0 1 0\n";
+    let scene = folder.path().join("lamp.tri");
+    std::fs::write(&scene, triangle).unwrap();
+    let [plain, _] = model::solve(&scene, folder.path(), &["--elements", "20", "--sides", "both"]);
+    let again = folder.path().join("again");
+    std::fs::create_dir(&again).unwrap();
+    let [lit, csv] = model::solve(&plain, &again, &["--elements", "20"]);
+    let lit = Glb::read(&lit);
+    let primitives = lit.json["meshes"][0]["primitives"].as_array().unwrap();
+    let faces: Vec<_> = primitives.iter().map(|p| &p["extras"]["radiosity"]["face"]).collect();
+    assert_eq!(faces, [&serde_json::Value::Null, &serde_json::json!("back")]);
+    assert!(primitives.iter().all(|p| p["extras"]["radiosity"]["lit"] == true));
+    // Emittance of a .tri lamp: 100 times the back, 25,500.
+    assert!(rows(&csv).iter().all(|row| (row[2] / 25_500.0 - 1.0).abs() < 1e-6));
+}

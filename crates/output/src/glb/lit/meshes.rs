@@ -50,6 +50,9 @@ impl Meshes {
             let everywhere = |primitive: &&usize| forms.iter().all(|f| replaced(f, primitive));
             vanishing
                 .extend(forms[0].lit.keys().filter(everywhere).map(|primitive| (mesh, *primitive)));
+            let primitives = list(root, "meshes")[mesh].get("primitives").and_then(Value::as_array);
+            let backs = primitives.into_iter().flatten().enumerate().filter(|(_, p)| is_back(p));
+            vanishing.extend(backs.map(|(primitive, _)| (mesh, primitive)));
         }
         vanishing
     }
@@ -104,10 +107,17 @@ fn lit_mesh(original: &Value, mut lit: Lit, materials: &Materials, slots: &mut S
                 let lit = |faces| lit_primitive(&original, faces, materials, slots);
                 primitives.extend(sides.into_iter().map(lit));
             }
+            // The lit faces have their own backs.
+            None if is_back(&original) => {}
             None => primitives.push(original),
         }
     }
     mesh
+}
+
+/// Whether a primitive shows the back of another, as in files of our own making.
+fn is_back(primitive: &Value) -> bool {
+    primitive.pointer("/extras/radiosity/face").and_then(Value::as_str) == Some("back")
 }
 
 fn lit_primitive(
