@@ -123,3 +123,32 @@ fn what_vertices_carry_is_interpolated() {
     let faded: Vec<f64> = lit.attribute(sheet, "COLOR_1").iter().map(|c| c[2]).collect();
     assert_eq!(faded.iter().copied().fold(1.0, f64::min), f64::from(64.0_f32 / 255.0));
 }
+
+#[test]
+fn what_could_not_be_written_at_the_end_is_refused_at_the_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = model::write(folder.path());
+    let mut document: Value = serde_json::from_slice(&std::fs::read(&scene).unwrap()).unwrap();
+    // Nothing that a scene needs: only the light's way back does.
+    let numbers = index(&document["meshes"][0]["primitives"][0]["attributes"]["_ID"]);
+    document["accessors"][numbers]["count"] = json!(4000);
+    std::fs::write(&scene, document.to_string()).unwrap();
+    let run = |output: &str| {
+        std::process::Command::new(env!("CARGO_BIN_EXE_radiosity"))
+            .current_dir(folder.path())
+            .args(["solve", "studio.gltf", "--elements", "100", "-o", output])
+            .output()
+            .unwrap()
+    };
+    let refused = run("lit.glb");
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(1), "{said}");
+    let expected = format!(
+        "studio.gltf: the scene's glTF document: accessors[{numbers}]: expected entries that lie \
+         within their buffer"
+    );
+    assert!(said.contains(&expected), "{said}");
+    assert!(!said.contains("shots"), "{said}");
+    assert!(!folder.path().join("lit.glb").exists());
+    assert_eq!(run("lit.csv").status.code(), Some(0));
+}
