@@ -163,10 +163,10 @@ impl fmt::Display for ErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownExtension(None) => {
-                write!(f, "no file name extension, expected {}", Format::EXTENSIONS)
+                write!(f, "no file name extension, expected {}", Format::extensions())
             }
             Self::UnknownExtension(Some(e)) => {
-                write!(f, "unknown file name extension \".{e}\", expected {}", Format::EXTENSIONS)
+                write!(f, "unknown file name extension \".{e}\", expected {}", Format::extensions())
             }
             Self::FeatureOff(name) => write!(
                 f,
