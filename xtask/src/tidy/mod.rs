@@ -42,6 +42,12 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     if complaints.is_empty() { Ok(()) } else { Err(complaints.join("\n")) }
 }
 
+/// What a manifest depends on, by name, for tests too.
+#[cfg(test)]
+pub(crate) fn dependencies_of(manifest: &str) -> Vec<String> {
+    manifest::dependencies(manifest).into_iter().map(|dependency| dependency.name).collect()
+}
+
 /// The folders of the workspace's members: each of crates/, and xtask.
 fn members(root: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut found = vec![root.join("xtask")];
