@@ -3,6 +3,7 @@
 //! The same checks run as tests of this crate, so nobody has to remember the command.
 
 mod edges;
+mod formats;
 mod links;
 mod manifest;
 mod sources;
@@ -29,6 +30,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
             _ => {}
         }
     }
+    complaints.extend(formats::check(root));
     for folder in members(root).map_err(|e| format!("{}: {e}", root.display()))? {
         let path = folder.join("Cargo.toml");
         let name = path.strip_prefix(root).unwrap_or(&path).display().to_string();
