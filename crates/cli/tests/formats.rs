@@ -41,6 +41,9 @@ fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
     folder
 }
 
+/// What makes a glTF file odd.
+type Change<'a> = &'a dyn Fn(&mut Value);
+
 /// A glTF file of one triangle; `change` makes it what a case needs.
 fn gltf(change: impl FnOnce(&mut Value)) -> String {
     let corners = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -125,7 +128,7 @@ fn each_warning_that_the_page_names_is_given() {
     }
 
     let lamp = json!({ "KHR_lights_punctual": { "lights": [{ "type": "point" }] } });
-    let cases: [(&dyn Fn(&mut Value), &str); 6] = [
+    let cases: [(Change<'_>, &str); 6] = [
         (
             &|d| d["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = json!(0.25),
             "the mirror-like share of the reflectance (metallic 0.25)",
