@@ -113,9 +113,9 @@ impl Example {
         let mut packages = BTreeSet::new();
         reach(root, self.package, &mut packages);
         let folders = packages.iter().map(|package| root.join("crates").join(package));
-        let example = root.join("crates").join(self.package).join("examples");
+        let example = root.join(format!("crates/{}/examples/{}.rs", self.package, self.name));
         let sources = folders.map(|folder| folder.join("src")).chain([example]);
-        sources.map(|folder| newest(&folder)).all(|source| source < built)
+        sources.map(|source| newest(&source)).all(|source| source < built)
     }
 
     /// By cargo, in the folder and the profile of this test.
@@ -141,15 +141,16 @@ fn reach(root: &Path, package: &str, reached: &mut BTreeSet<String>) {
     }
 }
 
-/// When the newest file of a folder was changed.
-fn newest(folder: &Path) -> SystemTime {
-    let entries = fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok);
-    let time = |entry: fs::DirEntry| match entry.metadata() {
-        Ok(data) if data.is_dir() => newest(&entry.path()),
-        Ok(data) => data.modified().unwrap_or(SystemTime::UNIX_EPOCH),
-        Err(_) => SystemTime::UNIX_EPOCH,
-    };
-    entries.map(time).max().unwrap_or(SystemTime::UNIX_EPOCH)
+/// When a file, or the newest file below a folder, was changed.
+fn newest(path: &Path) -> SystemTime {
+    let changed = || fs::metadata(path)?.modified();
+    match fs::read_dir(path) {
+        Err(_) => changed().unwrap_or(SystemTime::UNIX_EPOCH),
+        Ok(entries) => {
+            let paths = entries.filter_map(Result::ok).map(|entry| entry.path());
+            paths.map(|path| newest(&path)).max().unwrap_or(SystemTime::UNIX_EPOCH)
+        }
+    }
 }
 
 /// The folder of this build: the test lies in `deps` below it.

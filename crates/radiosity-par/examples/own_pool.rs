@@ -79,7 +79,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn timed<T>(name: &str, work: impl FnOnce() -> (T, u64)) -> (T, u64) {
     let start = Instant::now();
     let (light, shots) = work();
-    println!("{name:16} {shots} shots in {:.0?}", start.elapsed());
+    println!("{name:16} {shots} shots in {:.1?}", start.elapsed());
     (light, shots)
 }
 

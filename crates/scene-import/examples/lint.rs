@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut unreadable = 0;
     for file in &files {
         match open(file, &Options::default()) {
-            Ok(imported) => show(&imported),
+            Ok(imported) => show(file, &imported),
             // The others are linted all the same. What this build cannot read says nothing of the file.
             Err(error) => {
                 println!("{error}");
@@ -48,8 +48,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-fn show(imported: &Imported) {
-    println!("{}", imported.summary);
+fn show(file: &Path, imported: &Imported) {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    println!("{name}: {}", imported.summary);
     for diagnostic in imported.diagnostics.iter().take(SHOWN) {
         println!("  {diagnostic}");
     }
