@@ -20,6 +20,8 @@ const WORDS: &[(&str, &str)] = &[
     ("--size", "png"),
     #[cfg(not(feature = "verify"))]
     ("verify", "verify"),
+    #[cfg(not(feature = "html"))]
+    ("view", "html"),
 ];
 
 /// Refuses what needs a feature that this build lacks.

@@ -7,6 +7,8 @@ mod help;
 mod picture;
 mod shooting;
 mod snapshot;
+#[cfg(feature = "html")]
+mod view;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -20,6 +22,8 @@ pub(crate) use help::CONVERTED;
 pub(crate) use picture::PictureArgs;
 pub(crate) use shooting::{ShootingArgs, SplitArg};
 pub(crate) use snapshot::Every;
+#[cfg(feature = "html")]
+pub(crate) use view::ViewArgs;
 
 /// Turns a triangle scene into its diffuse global illumination.
 #[cfg_attr(
@@ -51,6 +55,9 @@ pub(crate) enum Command {
     /// Check known answers on this machine: closed forms, known solutions, the bundled scenes
     #[cfg(feature = "verify")]
     Verify(VerifyArgs),
+    /// Make a page of a lit scene: walk about, ask points, read how wrong the light can be
+    #[cfg(feature = "html")]
+    View(ViewArgs),
 }
 
 /// How a scene file is read.

@@ -12,6 +12,8 @@ mod failure;
 mod files;
 mod interrupt;
 mod memory;
+#[cfg(feature = "html")]
+mod page;
 mod pipeline;
 mod prepared;
 mod report;
@@ -59,5 +61,7 @@ fn run(args: Args) -> Result<(), Failure> {
         Some(Command::Compare(args)) => commands::compare::run(&args),
         #[cfg(feature = "verify")]
         Some(Command::Verify(args)) => commands::verify::run(&args),
+        #[cfg(feature = "html")]
+        Some(Command::View(args)) => commands::view::run(&args),
     }
 }

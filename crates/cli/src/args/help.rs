@@ -33,6 +33,7 @@ fn lines(all: &[(bool, &str)]) -> String {
 pub(super) fn solve() -> String {
     let (glb, png) = (cfg!(feature = "gltf"), cfg!(feature = "png"));
     let checkpoint = cfg!(feature = "checkpoint");
+    let html = cfg!(feature = "html");
     let solve = lines(&[
         (true, "Examples:"),
         (
@@ -65,6 +66,7 @@ pub(super) fn solve() -> String {
         (true, "  .ply  elements with float exitance"),
         (glb, "  .glb  vertex colours and linear _RADIOSITY"),
         (png, "  .png  a picture"),
+        (html, "  .html  a page to walk about in, with the report; needs no network"),
         (true, "  .probe.csv  exitance at the places of --probe"),
         (true, ""),
     ]);
@@ -93,6 +95,7 @@ mod tests {
             ("glb", cfg!(feature = "gltf")),
             ("png", cfg!(feature = "png")),
             ("checkpoint", cfg!(feature = "checkpoint")),
+            ("html", cfg!(feature = "html")),
         ] {
             assert_eq!(solve().contains(word), on, "{word}");
         }

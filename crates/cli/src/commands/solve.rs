@@ -13,6 +13,8 @@ use scene_import::Imported;
 use crate::args::{AccelArg, PictureArgs};
 use crate::failure::Failure;
 use crate::memory::Budget;
+#[cfg(feature = "html")]
+use crate::page;
 use crate::pipeline::{self, INTERRUPT, Solved};
 use crate::prepared::{self, Prepared};
 use crate::report::{Report, Run};
@@ -65,6 +67,8 @@ pub(crate) fn bundled() -> Result<(), Failure> {
 pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let paths = settings.outputs.iter().filter_map(|t| match t {
         Target::File(path) | Target::Probes(path) => Some(path),
+        #[cfg(feature = "html")]
+        Target::Page(path) => Some(path),
         Target::Stdout => None,
     });
     let mut paths: Vec<&Path> = paths.chain(&settings.report).map(PathBuf::as_path).collect();
@@ -117,23 +121,27 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     say_solved(&prepared, &solved, settings);
 
     let clock = Instant::now();
-    let mut outputs = Vec::new();
-    for target in &settings.outputs {
-        outputs.push(write(target, &imported.scene, &solved, &places, &options)?);
-    }
-    let output_seconds = clock.elapsed().as_secs_f64();
-    if let Some(path) = &settings.report {
-        let run = Run {
+    let report = |clock: &Instant, outputs: &[String]| {
+        Report::of(Run {
             file: &file,
             imported: &imported,
             settings,
             prepared: &prepared,
             solved: &solved,
             read_seconds,
-            output_seconds,
-            outputs: outputs.clone(),
-        };
-        Report::of(run).write(path)?;
+            output_seconds: clock.elapsed().as_secs_f64(),
+            outputs: outputs.to_vec(),
+        })
+    };
+    let mut outputs = Vec::new();
+    for target in &settings.outputs {
+        let so_far = || report(&clock, &outputs);
+        let written = write(target, &imported, &solved, &places, &options, so_far)?;
+        outputs.push(written);
+    }
+    let output_seconds = clock.elapsed().as_secs_f64();
+    if let Some(path) = &settings.report {
+        report(&clock, &outputs).write(path)?;
         outputs.push(path.display().to_string());
     }
     say(&format!(
@@ -226,12 +234,13 @@ pub(crate) fn check_paired(scene: &Scene, read: &Read) -> Result<(), Failure> {
 
 fn write(
     target: &Target,
-    scene: &Scene,
+    imported: &Imported,
     solved: &Solved,
     places: &[Place],
     options: &output::Options,
+    report: impl FnOnce() -> Report,
 ) -> Result<String, Failure> {
-    let solution = &solved.refined.solution;
+    let (scene, solution) = (&imported.scene, &solved.refined.solution);
     match target {
         Target::File(path) => {
             output::write_file(path, scene, solution, options)?;
@@ -240,6 +249,11 @@ fn write(
         Target::Probes(path) => {
             let light = &solved.refined.probes;
             output::replace_file(path, |out| output::csv::write_places(out, places, light))?;
+            Ok(path.display().to_string())
+        }
+        #[cfg(feature = "html")]
+        Target::Page(path) => {
+            page::write_solved(path, imported, solution, options, &report())?;
             Ok(path.display().to_string())
         }
         Target::Stdout => {
