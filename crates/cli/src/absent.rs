@@ -22,6 +22,10 @@ const WORDS: &[(&str, &str)] = &[
     ("verify", "verify"),
     #[cfg(not(feature = "html"))]
     ("view", "html"),
+    #[cfg(not(feature = "live"))]
+    ("--live", "live"),
+    #[cfg(not(feature = "live"))]
+    ("--live-port", "live"),
 ];
 
 /// Refuses what needs a feature that this build lacks.

@@ -4,6 +4,7 @@ mod checkpoint;
 #[cfg(feature = "form-factors")]
 mod form_factors;
 mod help;
+mod live;
 mod picture;
 mod shooting;
 mod snapshot;
@@ -19,6 +20,7 @@ pub(crate) use checkpoint::CheckpointArgs;
 #[cfg(feature = "form-factors")]
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 pub(crate) use help::CONVERTED;
+pub(crate) use live::LiveArgs;
 pub(crate) use picture::PictureArgs;
 pub(crate) use shooting::{ShootingArgs, SplitArg};
 pub(crate) use snapshot::Every;
@@ -197,6 +199,9 @@ pub(crate) struct SolveArgs {
 
     #[command(flatten)]
     pub(crate) keeping: CheckpointArgs,
+
+    #[command(flatten)]
+    pub(crate) live: LiveArgs,
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,

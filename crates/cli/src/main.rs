@@ -11,6 +11,7 @@ mod commands;
 mod failure;
 mod files;
 mod interrupt;
+mod live;
 mod memory;
 #[cfg(feature = "html")]
 mod page;

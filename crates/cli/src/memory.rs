@@ -131,13 +131,17 @@ impl Budget {
         #[cfg(feature = "html")]
         let paged = settings.outputs.iter().any(|t| matches!(t, Target::Page(_)));
         #[cfg(feature = "html")]
-        let packed = if paged { PER_PACKED_ELEMENT } else { 0 };
+        let packed = if paged || settings.live.is_some() { PER_PACKED_ELEMENT } else { 0 };
         #[cfg(not(feature = "html"))]
         let packed = 0;
         let (drawn, (width, height)) =
             (settings.outputs.iter().any(picture), settings.picture.size());
         let pixels = u64::from(width) * u64::from(height);
-        let copies = if settings.snapshot.is_some() { PER_COPIED_ELEMENT } else { 0 };
+        let copies = if settings.snapshot.is_some() || settings.live.is_some() {
+            PER_COPIED_ELEMENT
+        } else {
+            0
+        };
         let before = before(scene.triangles().len());
         let level = Level {
             schedule: match settings.shooting.schedule {

@@ -43,6 +43,8 @@ pub(crate) struct Solve {
     pub(crate) probe: Option<PathBuf>,
     /// How often the light on its way is written, too.
     pub(crate) snapshot: Option<Every>,
+    /// The port that the solve can be watched on, 0 for any.
+    pub(crate) live: Option<u16>,
     pub(crate) keeping: Keeping,
     pub(crate) goal: Goal,
     pub(crate) limits: Limits,
@@ -155,6 +157,7 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
         report: args.report,
         probe: args.probe,
         snapshot: args.snapshot,
+        live: args.live.port(),
         keeping: keeping::keeping(args.keeping)?,
         goal,
         limits: Limits {
@@ -393,6 +396,9 @@ mod tests {
             "-o a.csv --checkpoint a.ckpt --every 0",
             "-o a.csv --checkpoint -",
             "-o a.csv --resume -",
+            "-o a.csv --live-port 80",
+            "-o a.csv --live --live-port 99999",
+            "--live",
         ] {
             assert!(matches!(resolve(line), Err(Failure::Usage(_))), "{line}");
         }

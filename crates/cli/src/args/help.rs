@@ -51,6 +51,10 @@ pub(super) fn solve() -> String {
         (true, "  radiosity solve room.tri --elements 50000 --converge 0.01% -o fixed.csv"),
         (true, "  radiosity solve room.tri --probe points.csv -o at-points.probe.csv"),
         (true, "  radiosity solve hall.tri --max-memory 2GB --snapshot 30s -o hall.ply"),
+        (
+            cfg!(feature = "live"),
+            "  radiosity solve hall.tri -o hall.html --live               watch it in a browser",
+        ),
         (checkpoint, "  radiosity solve hall.tri --error 0.1% -o hall.ply --checkpoint hall.ckpt"),
         (
             checkpoint,

@@ -12,6 +12,7 @@ use scene_import::Imported;
 
 use crate::args::{AccelArg, PictureArgs};
 use crate::failure::Failure;
+use crate::live::Live;
 use crate::memory::Budget;
 #[cfg(feature = "html")]
 use crate::page;
@@ -50,6 +51,7 @@ pub(crate) fn bundled() -> Result<(), Failure> {
         report: Some(BUNDLED_REPORT.into()),
         probe: None,
         snapshot: None,
+        live: None,
         keeping: settings::Keeping::default(),
         goal: Goal::Error(0.01),
         limits: settings::Limits::default(),
@@ -110,7 +112,12 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     )?;
     let probes: Vec<Probe> = places.iter().map(probe).collect();
     let snapshots = Snapshots::of(settings, &imported.scene, &options);
-    let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots)?;
+    let mut live = Live::start(settings, &file, &imported, &options)?;
+    let scene = &imported.scene;
+    let solved = pipeline::solve(scene, &prepared, settings, &probes, snapshots, live.as_mut())?;
+    if let Some(live) = &mut live {
+        live.finish(&solved.refined.work, &solved.refined.solution);
+    }
     if settings.shooting.split == radiosity_core::Split::Centroid {
         screen::warning(
             "--split centroid: no edge is ever split, so meshes may agree on a wrong answer; the \
@@ -232,6 +239,7 @@ pub(crate) fn check_paired(scene: &Scene, read: &Read) -> Result<(), Failure> {
     }
 }
 
+#[cfg_attr(not(feature = "html"), expect(unused_variables, reason = "only pages hold the report"))]
 fn write(
     target: &Target,
     imported: &Imported,

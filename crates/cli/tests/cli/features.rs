@@ -23,6 +23,11 @@ fn what_is_left_out_is_named_and_the_rest_works() {
         ("gltf", cfg!(feature = "gltf"), &["solve", "--elements", "20", "-o", "a.csv"]),
         ("html", cfg!(feature = "html"), &["solve", "box.tri", "--elements", "20", "-o", "a.html"]),
         ("html", cfg!(feature = "html"), &["view", "a.glb", "-o", "a.html"]),
+        (
+            "live",
+            cfg!(feature = "live"),
+            &["solve", "box.tri", "--elements", "20", "--live", "-o", "a.csv"],
+        ),
         ("obj", cfg!(feature = "obj"), &["solve", "a.obj", "-o", "a.csv"]),
         ("png", cfg!(feature = "png"), &["solve", "box.tri", "--elements", "20", "-o", "a.png"]),
         ("png", cfg!(feature = "png"), &["solve", "box.tri", "--size", "9x9", "-o", "-"]),

@@ -44,20 +44,20 @@ class Page {
     this.expose(light);
     if (this.view) {
       this.surface.show(light);
-      this.picked(null);
     } else {
       this.surface = new Surface(light);
       this.view = new View(by('canvas'), this.surface);
-      this.view.clicked = (origin, direction) => {
-        const hit = pick(this.light, origin, direction);
-        this.picked(hit);
-        showPoint(this.light, hit, this.facts.report?.settings?.exchange === 'paired');
+      this.view.clicked = (...ray) => {
+        this.asked = ray;
+        this.answer();
       };
       this.cameras = cameras(light);
       by('camera').replaceChildren(...this.cameras.map((c, i) => make('option', { value: i }, c.name)));
       this.listen();
       this.view.stand(this.cameras[0]);
     }
+    // What was asked for is asked for still: on the way to its end light changes, and meshes do.
+    this.answer();
     this.apply();
   }
 
@@ -72,7 +72,11 @@ class Page {
     this.exposure = light.exposure;
   }
 
-  picked(hit) {
+  /** Says what is known of the point that was asked for. */
+  answer() {
+    if (!this.asked) return;
+    const hit = pick(this.light, ...this.asked);
+    showPoint(this.light, hit, this.facts.report?.settings?.exchange === 'paired');
     this.surface.set({ picked: hit === null ? -1 : hit.element });
     this.view.changed();
   }
