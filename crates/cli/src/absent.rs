@@ -20,6 +20,12 @@ const WORDS: &[(&str, &str)] = &[
     ("--size", "png"),
     #[cfg(not(feature = "verify"))]
     ("verify", "verify"),
+    #[cfg(not(feature = "html"))]
+    ("view", "html"),
+    #[cfg(not(feature = "live"))]
+    ("--live", "live"),
+    #[cfg(not(feature = "live"))]
+    ("--live-port", "live"),
 ];
 
 /// Refuses what needs a feature that this build lacks.

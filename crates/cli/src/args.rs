@@ -4,9 +4,12 @@ mod checkpoint;
 #[cfg(feature = "form-factors")]
 mod form_factors;
 mod help;
+mod live;
 mod picture;
 mod shooting;
 mod snapshot;
+#[cfg(feature = "html")]
+mod view;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -17,9 +20,12 @@ pub(crate) use checkpoint::CheckpointArgs;
 #[cfg(feature = "form-factors")]
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 pub(crate) use help::CONVERTED;
+pub(crate) use live::LiveArgs;
 pub(crate) use picture::PictureArgs;
 pub(crate) use shooting::{ShootingArgs, SplitArg};
 pub(crate) use snapshot::Every;
+#[cfg(feature = "html")]
+pub(crate) use view::ViewArgs;
 
 /// Turns a triangle scene into its diffuse global illumination.
 #[cfg_attr(
@@ -51,6 +57,9 @@ pub(crate) enum Command {
     /// Check known answers on this machine: closed forms, known solutions, the bundled scenes
     #[cfg(feature = "verify")]
     Verify(VerifyArgs),
+    /// Make a page of a lit scene: walk about, ask points, read how wrong the light can be
+    #[cfg(feature = "html")]
+    View(ViewArgs),
 }
 
 /// How a scene file is read.
@@ -190,6 +199,9 @@ pub(crate) struct SolveArgs {
 
     #[command(flatten)]
     pub(crate) keeping: CheckpointArgs,
+
+    #[command(flatten)]
+    pub(crate) live: LiveArgs,
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,

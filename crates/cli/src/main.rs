@@ -11,7 +11,10 @@ mod commands;
 mod failure;
 mod files;
 mod interrupt;
+mod live;
 mod memory;
+#[cfg(feature = "html")]
+mod page;
 mod pipeline;
 mod prepared;
 mod report;
@@ -59,5 +62,7 @@ fn run(args: Args) -> Result<(), Failure> {
         Some(Command::Compare(args)) => commands::compare::run(&args),
         #[cfg(feature = "verify")]
         Some(Command::Verify(args)) => commands::verify::run(&args),
+        #[cfg(feature = "html")]
+        Some(Command::View(args)) => commands::view::run(&args),
     }
 }

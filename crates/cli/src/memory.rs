@@ -28,6 +28,10 @@ const PER_KEPT_ELEMENT: u64 = 320;
 /// A copy of an element's light, for a snapshot.
 const PER_COPIED_ELEMENT: u64 = 150;
 
+/// An element of a page, packed.
+#[cfg(feature = "html")]
+const PER_PACKED_ELEMENT: u64 = 80;
+
 /// An element that a picture shows, and a pixel of it.
 const PER_DRAWN_ELEMENT: u64 = 50;
 const PER_PIXEL: u64 = 60;
@@ -125,12 +129,22 @@ impl Budget {
             Target::File(path) => {
                 matches!(Format::from_path(path), Ok(Format::Png | Format::Exr))
             }
-            Target::Stdout | Target::Probes(_) => false,
+            _ => false,
         };
+        #[cfg(feature = "html")]
+        let paged = settings.outputs.iter().any(|t| matches!(t, Target::Page(_)));
+        #[cfg(feature = "html")]
+        let packed = if paged || settings.live.is_some() { PER_PACKED_ELEMENT } else { 0 };
+        #[cfg(not(feature = "html"))]
+        let packed = 0;
         let (drawn, (width, height)) =
             (settings.outputs.iter().any(picture), settings.picture.size());
         let pixels = u64::from(width) * u64::from(height);
-        let copies = if settings.snapshot.is_some() { PER_COPIED_ELEMENT } else { 0 };
+        let copies = if settings.snapshot.is_some() || settings.live.is_some() {
+            PER_COPIED_ELEMENT
+        } else {
+            0
+        };
         let before = before(scene.triangles().len());
         let level = Level {
             schedule: match settings.shooting.schedule {
@@ -138,7 +152,7 @@ impl Budget {
                 schedule => schedule,
             },
             pieces: sides(scene),
-            per_element: copies + if drawn { PER_DRAWN_ELEMENT } else { 0 },
+            per_element: copies + packed + if drawn { PER_DRAWN_ELEMENT } else { 0 },
             fixed: if drawn { pixels * PER_PIXEL } else { 0 },
         };
         Some(Self { limit, before, level })

@@ -69,7 +69,8 @@ fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let made = name.starts_with('.') || name.starts_with("target") || name == "out";
+        let made = name.starts_with('.') || name.starts_with("target");
+        let made = made || name == "out" || name == "node_modules";
         if path.is_dir() && !made {
             found.extend(files(&path)?);
         } else if path.is_file() {

@@ -33,6 +33,7 @@ fn lines(all: &[(bool, &str)]) -> String {
 pub(super) fn solve() -> String {
     let (glb, png, exr) = (cfg!(feature = "gltf"), cfg!(feature = "png"), cfg!(feature = "exr"));
     let checkpoint = cfg!(feature = "checkpoint");
+    let html = cfg!(feature = "html");
     let solve = lines(&[
         (true, "Examples:"),
         (
@@ -50,6 +51,10 @@ pub(super) fn solve() -> String {
         (true, "  radiosity solve room.tri --elements 50000 --converge 0.01% -o fixed.csv"),
         (true, "  radiosity solve room.tri --probe points.csv -o at-points.probe.csv"),
         (true, "  radiosity solve hall.tri --max-memory 2GB --snapshot 30s -o hall.ply"),
+        (
+            cfg!(feature = "live"),
+            "  radiosity solve hall.tri -o hall.html --live               watch it in a browser",
+        ),
         (checkpoint, "  radiosity solve hall.tri --error 0.1% -o hall.ply --checkpoint hall.ckpt"),
         (
             checkpoint,
@@ -67,6 +72,7 @@ pub(super) fn solve() -> String {
         (true, "  .vtu  the elements with light and surface, for ParaView"),
         (png, "  .png  a picture"),
         (exr, "  .exr  a picture in linear, unclamped exitance"),
+        (html, "  .html  a page to walk about in, with the report; needs no network"),
         (true, "  .probe.csv  exitance at the places of --probe"),
         (true, ""),
     ]);
@@ -96,6 +102,7 @@ mod tests {
             ("png", cfg!(feature = "png")),
             ("exr", cfg!(feature = "exr")),
             ("checkpoint", cfg!(feature = "checkpoint")),
+            ("html", cfg!(feature = "html")),
         ] {
             assert_eq!(solve().contains(word), on, "{word}");
         }

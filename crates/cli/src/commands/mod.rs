@@ -8,3 +8,5 @@ pub(crate) mod plan;
 pub(crate) mod solve;
 #[cfg(feature = "verify")]
 pub(crate) mod verify;
+#[cfg(feature = "html")]
+pub(crate) mod view;

@@ -13,7 +13,10 @@ use scene_import::Imported;
 
 use crate::args::{AccelArg, PictureArgs};
 use crate::failure::Failure;
+use crate::live::Live;
 use crate::memory::Budget;
+#[cfg(feature = "html")]
+use crate::page;
 use crate::pipeline::{self, INTERRUPT, Solved};
 use crate::prepared::{self, Prepared};
 use crate::report::{Report, Run};
@@ -49,6 +52,7 @@ pub(crate) fn bundled() -> Result<(), Failure> {
         report: Some(BUNDLED_REPORT.into()),
         probe: None,
         snapshot: None,
+        live: None,
         keeping: settings::Keeping::default(),
         goal: Goal::Error(0.01),
         limits: settings::Limits::default(),
@@ -66,6 +70,8 @@ pub(crate) fn bundled() -> Result<(), Failure> {
 pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let paths = settings.outputs.iter().filter_map(|t| match t {
         Target::File(path) | Target::Probes(path) => Some(path),
+        #[cfg(feature = "html")]
+        Target::Page(path) => Some(path),
         Target::Stdout => None,
     });
     let mut paths: Vec<&Path> = paths.chain(&settings.report).map(PathBuf::as_path).collect();
@@ -112,7 +118,12 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     )?;
     let probes: Vec<Probe> = places.iter().map(probe).collect();
     let snapshots = Snapshots::of(settings, &imported.scene, &options);
-    let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots)?;
+    let mut live = Live::start(settings, &file, &imported, &options)?;
+    let scene = &imported.scene;
+    let solved = pipeline::solve(scene, &prepared, settings, &probes, snapshots, live.as_mut())?;
+    if let Some(live) = &mut live {
+        live.finish(&solved.refined.work, &solved.refined.solution);
+    }
     if settings.shooting.split == radiosity_core::Split::Centroid {
         screen::warning(
             "--split centroid: no edge is ever split, so meshes may agree on a wrong answer; the \
@@ -123,23 +134,27 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     say_solved(&prepared, &solved, settings);
 
     let clock = Instant::now();
-    let mut outputs = Vec::new();
-    for target in &settings.outputs {
-        outputs.push(write(target, &imported.scene, &solved, &places, &options)?);
-    }
-    let output_seconds = clock.elapsed().as_secs_f64();
-    if let Some(path) = &settings.report {
-        let run = Run {
+    let report = |clock: &Instant, outputs: &[String]| {
+        Report::of(Run {
             file: &file,
             imported: &imported,
             settings,
             prepared: &prepared,
             solved: &solved,
             read_seconds,
-            output_seconds,
-            outputs: outputs.clone(),
-        };
-        Report::of(run).write(path)?;
+            output_seconds: clock.elapsed().as_secs_f64(),
+            outputs: outputs.to_vec(),
+        })
+    };
+    let mut outputs = Vec::new();
+    for target in &settings.outputs {
+        let so_far = || report(&clock, &outputs);
+        let written = write(target, &imported, &solved, &places, &options, so_far)?;
+        outputs.push(written);
+    }
+    let output_seconds = clock.elapsed().as_secs_f64();
+    if let Some(path) = &settings.report {
+        report(&clock, &outputs).write(path)?;
         outputs.push(path.display().to_string());
     }
     say(&format!(
@@ -247,14 +262,16 @@ pub(crate) fn check_paired(scene: &Scene, read: &Read) -> Result<(), Failure> {
     }
 }
 
+#[cfg_attr(not(feature = "html"), expect(unused_variables, reason = "only pages hold the report"))]
 fn write(
     target: &Target,
-    scene: &Scene,
+    imported: &Imported,
     solved: &Solved,
     places: &[Place],
     options: &output::Options,
+    report: impl FnOnce() -> Report,
 ) -> Result<String, Failure> {
-    let solution = &solved.refined.solution;
+    let (scene, solution) = (&imported.scene, &solved.refined.solution);
     match target {
         Target::File(path) => {
             output::write_file(path, scene, solution, options)?;
@@ -263,6 +280,11 @@ fn write(
         Target::Probes(path) => {
             let light = &solved.refined.probes;
             output::replace_file(path, |out| output::csv::write_places(out, places, light))?;
+            Ok(path.display().to_string())
+        }
+        #[cfg(feature = "html")]
+        Target::Page(path) => {
+            page::write_solved(path, imported, solution, options, &report())?;
             Ok(path.display().to_string())
         }
         Target::Stdout => {

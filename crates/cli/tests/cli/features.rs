@@ -21,6 +21,13 @@ fn what_is_left_out_is_named_and_the_rest_works() {
         ("gltf", cfg!(feature = "gltf"), &["solve", "box.tri", "--elements", "20", "-o", "a.glb"]),
         ("gltf", cfg!(feature = "gltf"), &["convert", "box.tri", "b.glb"]),
         ("gltf", cfg!(feature = "gltf"), &["solve", "--elements", "20", "-o", "a.csv"]),
+        ("html", cfg!(feature = "html"), &["solve", "box.tri", "--elements", "20", "-o", "a.html"]),
+        ("html", cfg!(feature = "html"), &["view", "a.glb", "-o", "a.html"]),
+        (
+            "live",
+            cfg!(feature = "live"),
+            &["solve", "box.tri", "--elements", "20", "--live", "-o", "a.csv"],
+        ),
         ("obj", cfg!(feature = "obj"), &["solve", "a.obj", "-o", "a.csv"]),
         ("png", cfg!(feature = "png"), &["solve", "box.tri", "--elements", "20", "-o", "a.png"]),
         (
