@@ -14,6 +14,15 @@ use crate::{Error, ErrorKind};
 /// Bytes of a GLB header, the shortest length it can state.
 const GLB_HEADER: u32 = 12;
 
+/// What a reader needs of a document besides the scene in it.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    /// The JSON as text.
+    pub(super) text: bool,
+    /// The light, if this project put it in: attributes, and primitives of backs.
+    pub(super) light: bool,
+}
+
 /// A validated document with its buffers.
 pub(super) struct Parsed {
     pub(super) document: Document,
@@ -24,12 +33,12 @@ pub(super) struct Parsed {
 
 impl Parsed {
     /// Parses and validates, then fetches the buffers.
-    pub(super) fn new(source: &Source<'_>, keep_text: bool) -> Result<Self, Error> {
+    pub(super) fn new(source: &Source<'_>, wanted: Wanted) -> Result<Self, Error> {
         let fail = |cause| failure(source.name, cause);
         check_stated_length(source)?;
         let Gltf { document, blob } =
             Gltf::from_slice_without_validation(source.bytes).map_err(fail)?;
-        let (json, text) = unlit(source.bytes, document.into_json(), keep_text).map_err(fail)?;
+        let (json, text) = unlit(source.bytes, document.into_json(), wanted).map_err(fail)?;
         check_positions(source.name, &json)?;
         let document = Document::from_json(json).map_err(fail)?;
         let buffers = buffers(source, &document, blob)?;
@@ -37,16 +46,16 @@ impl Parsed {
     }
 }
 
-/// The document without light that this project put in, and its text if that is to be kept.
+/// The document as it was before this project put light in, and its text if that is to be kept.
 fn unlit(
     file: &[u8],
     json: gltf::json::Root,
-    keep_text: bool,
+    wanted: Wanted,
 ) -> Result<(gltf::json::Root, Option<String>), gltf::Error> {
     let text: Cow<'_, [u8]> =
         if file.starts_with(b"glTF") { Glb::from_slice(file)?.json } else { Cow::Borrowed(file) };
-    let kept = |text: &[u8]| keep_text.then(|| String::from_utf8_lossy(text).into_owned());
-    match restore::restore(&text) {
+    let kept = |text: &[u8]| wanted.text.then(|| String::from_utf8_lossy(text).into_owned());
+    match restore::restore(&text, wanted.light) {
         None => Ok((json, kept(&text))),
         Some(restored) => Ok((gltf::json::deserialize::from_slice(&restored)?, kept(&restored))),
     }

@@ -8,6 +8,7 @@ mod budget;
 mod document;
 mod kept;
 mod layer;
+mod light;
 mod primitive;
 mod range;
 mod restore;
@@ -16,14 +17,15 @@ mod surface;
 mod uri;
 mod walk;
 
-use scene::{Camera, TriangleId};
+use scene::{Camera, Face, TriangleId};
 
 use crate::assembler::Assembler;
 use crate::open::Source;
-use crate::{DiagnosticKind, Error, Format, Imported, Options};
+use crate::{DiagnosticKind, Error, Format, Imported, Lit, Options, SidesRule};
 use budget::Budget;
-use document::Parsed;
+use document::{Parsed, Wanted};
 use kept::Keeper;
+use light::Light;
 use stated::Stated;
 use surface::Surfaces;
 use walk::Placed;
@@ -53,7 +55,30 @@ pub(crate) fn read(
     format: Format,
     options: &Options,
 ) -> Result<Imported, Error> {
-    let parsed = Parsed::new(source, options.keep_document)?;
+    let parsed = Parsed::new(source, Wanted { text: options.keep_document, light: false })?;
+    read_parsed(source, parsed, format, options, None)
+}
+
+/// Reads the elements of a file that this project has lit, each from its own side, and their light.
+pub(crate) fn read_lit(source: &Source<'_>) -> Result<Lit, Error> {
+    let parsed = Parsed::new(source, Wanted { text: false, light: true })?;
+    let exposure = light::exposure(&parsed, source.name)?;
+    let mut light = Light::default();
+    let options = Options { sides: SidesRule::Front, ..Options::default() };
+    let Imported { scene, diagnostics, .. } =
+        read_parsed(source, parsed, Format::Glb, &options, Some(&mut light))?;
+    let solution = light.solution(&scene, source.name)?;
+    Ok(Lit { scene, solution, exposure, diagnostics })
+}
+
+/// Reads a parsed document; the primitives of backs only where their light is wanted.
+fn read_parsed(
+    source: &Source<'_>,
+    parsed: Parsed,
+    format: Format,
+    options: &Options,
+    mut light: Option<&mut Light>,
+) -> Result<Imported, Error> {
     let mut assembler = Assembler::new(source.name, options.sides);
     let stated = Stated::new(&parsed.document, source.name, &mut assembler)?;
     range::check(source.name, parsed.document.as_json(), &stated)?;
@@ -89,7 +114,8 @@ pub(crate) fn read(
             None => assembler.new_group(&format!("node {}", node.index())),
         };
         for primitive in mesh.primitives() {
-            if stated.is_back(mesh.index(), primitive.index()) {
+            let is_back = stated.is_back(mesh.index(), primitive.index());
+            if is_back && light.is_none() {
                 continue;
             }
             let path = format!("{path}.mesh[{}].primitives[{}]", mesh.index(), primitive.index());
@@ -104,6 +130,10 @@ pub(crate) fn read(
                 &mut budget,
                 &mut assembler,
             )?;
+            if let Some(light) = light.as_deref_mut() {
+                let face = if is_back { Face::Back } else { Face::Front };
+                light.add(&primitive, face, first, &added, &parsed, &mut budget)?;
+            }
             keeper.add([node.index(), mesh.index(), primitive.index()], first, &added);
         }
     }

@@ -11,22 +11,23 @@ const KEY: &str = "radiosity";
 /// Materials that are shown as they are, without lamps.
 const UNLIT: &str = "KHR_materials_unlit";
 
-/// The document without its light; `None` where none was put in by this project, or where the text
-/// is no JSON, which whoever reads it next will say better.
-pub(super) fn restore(json: &[u8]) -> Option<Vec<u8>> {
+/// The document as it was before it was lit, but for its light if that is kept; `None` where none was
+/// put in by this project, or where the text is no JSON, which whoever reads it next will say better.
+pub(super) fn restore(json: &[u8], keep_light: bool) -> Option<Vec<u8>> {
     // Most files are not ours, and need not be read twice.
     let marked = json.windows(KEY.len()).any(|word| word == KEY.as_bytes());
     let mut root: Value = if marked { serde_json::from_slice(json).ok()? } else { return None };
-    let lit = take_ours(root.get_mut("asset")?)?.get("litDocument") == Some(&Value::Bool(true));
-    if !lit {
+    if root.pointer("/asset/extras/radiosity/litDocument") != Some(&Value::Bool(true)) {
         return None;
+    }
+    if !keep_light {
+        take_ours(root.get_mut("asset")?);
     }
     let lit_forms = restore_materials(&mut root);
     for mesh in list(&mut root, "meshes") {
         if let Some(primitives) = mesh.get_mut("primitives").and_then(Value::as_array_mut) {
-            primitives.retain_mut(|primitive| {
-                take_ours(primitive).is_none_or(|ours| unlight(primitive, &ours, &lit_forms))
-            });
+            primitives.retain(|primitive| keep_light || !is_back(primitive));
+            primitives.iter_mut().for_each(|p| unlight(p, &lit_forms, keep_light));
         }
     }
     forget_unlit(&mut root);
@@ -59,21 +60,24 @@ fn restore_materials(root: &mut Value) -> HashMap<u64, Value> {
     lit_forms
 }
 
-/// Takes the light out of a primitive; `false` for one that shows the back of another.
-fn unlight(
-    primitive: &mut Value,
-    ours: &Map<String, Value>,
-    lit_forms: &HashMap<u64, Value>,
-) -> bool {
-    if ours.get("face").and_then(Value::as_str) == Some("back") {
-        return false;
+/// Whether a primitive shows the back of another.
+fn is_back(primitive: &Value) -> bool {
+    primitive.pointer("/extras/radiosity/face").and_then(Value::as_str) == Some("back")
+}
+
+/// Gives a primitive its own colours and material back, and takes the light out unless it is kept.
+fn unlight(primitive: &mut Value, lit_forms: &HashMap<u64, Value>, keep_light: bool) {
+    if primitive.pointer("/extras/radiosity/lit") != Some(&Value::Bool(true)) {
+        return;
     }
-    if ours.get("lit") != Some(&Value::Bool(true)) {
-        return true;
+    if !keep_light {
+        take_ours(primitive);
     }
     if let Some(attributes) = primitive.get_mut("attributes").and_then(Value::as_object_mut) {
         attributes.remove("COLOR_0");
-        attributes.remove("_RADIOSITY");
+        if !keep_light {
+            attributes.remove("_RADIOSITY");
+        }
         // The document's own colours were moved on by one.
         let lit = std::mem::take(attributes);
         attributes.extend(lit.into_iter().map(|(name, values)| (moved_back(&name), values)));
@@ -84,7 +88,6 @@ fn unlight(
         Some(of) => primitive["material"] = of.clone(),
         None => {}
     }
-    true
 }
 
 /// `COLOR_1` was `COLOR_0` before there was light, and so on.
