@@ -65,8 +65,10 @@ pub(crate) fn read_lit(source: &Source<'_>) -> Result<Lit, Error> {
     let exposure = light::exposure(&parsed, source.name)?;
     let mut light = Light::default();
     let options = Options { sides: SidesRule::Front, ..Options::default() };
-    let Imported { scene, diagnostics, .. } =
+    let Imported { scene, mut diagnostics, .. } =
         read_parsed(source, parsed, Format::Glb, &options, Some(&mut light))?;
+    // What is odd about single triangles was so before they were lit, or comes of their being cut.
+    diagnostics.retain(|diagnostic| diagnostic.triangle.is_none());
     let solution = light.solution(&scene, source.name)?;
     Ok(Lit { scene, solution, exposure, diagnostics })
 }
