@@ -1,6 +1,6 @@
 //! What is served, to whom, and that stop and slow readers leave the work as it is.
 
-use std::io::Write;
+use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
@@ -8,7 +8,7 @@ use crate::reader::{ask, ask_as, next};
 use crate::support::{box_tri, folder_with, radiosity};
 use crate::watched::Watched;
 
-/// Hours of work on one mesh; a frame has 15 MB, more than the 10 that Linux lets two sockets hold.
+/// Hours of work on one mesh; a frame has 15 MB, more than sockets hold while nobody reads.
 const LONG: [&str; 8] = [
     "solve",
     "box.tri",
@@ -70,6 +70,12 @@ fn only_who_knows_the_token_sees_light_and_it_grows_until_stop() {
     assert!(clock.elapsed() < Duration::from_secs(30), "{:?}", clock.elapsed());
     let table = std::fs::read_to_string(folder.path().join("a.csv")).unwrap();
     assert_eq!(table.lines().count(), 13);
+    // What the slow reader was given was cut short: it was still in its way.
+    let mut given = Vec::new();
+    let _ = slow.read_to_end(&mut given);
+    // Eighteen numbers of four bytes an element, at least.
+    let whole = 72 * first.progress["elements"].as_u64().unwrap();
+    assert!((given.len() as u64) < whole, "{} of {whole}", given.len());
     // It closes with the run.
     assert!(TcpStream::connect(("127.0.0.1", port)).is_err());
 }

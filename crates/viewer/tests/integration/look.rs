@@ -123,7 +123,7 @@ fn walking_comes_nearer() {
     let before = browser.picture().at(x, y);
     assert!(before.iter().all(|c| *c == before[0]), "{before:?}");
     browser.value(
-        "(walk => { walk.checked = true; walk.dispatchEvent(new Event('change')); canvas.focus() })\
+        "(walk => { walk.checked = true; walk.dispatchEvent(new Event('change')) })\
          (document.querySelector('[value=walk]'))",
     );
     browser.hold("w", "KeyW", |browser| {

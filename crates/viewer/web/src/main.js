@@ -139,7 +139,7 @@ class Page {
 try {
   const page = new Page(JSON.parse(by('facts').textContent));
   if (page.facts.live) {
-    follow(page);
+    follow(page).catch((error) => trouble(`The light cannot be shown: ${error.message}`));
   } else {
     const text = by('light');
     page.show(decode(fromBase64(text.textContent.trim())));

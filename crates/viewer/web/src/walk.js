@@ -30,10 +30,12 @@ export class Walk {
     for (const end of ['pointerup', 'pointercancel']) {
       canvas.addEventListener(end, () => { this.last = null; });
     }
-    canvas.addEventListener('keydown', (event) => {
+    // Letters work wherever the focus is, but where they mean something else.
+    document.addEventListener('keydown', (event) => {
       if (!this.enabled || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (event.target.closest('select, input[type="number"]')) return;
       const turns = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
-      if (turns) {
+      if (turns && event.target === canvas) {
         this.turn(turns[0] * KEY_TURN, turns[1] * KEY_TURN);
       } else if (DIRECTIONS[event.code]) {
         this.fast = event.shiftKey;
@@ -44,8 +46,8 @@ export class Walk {
       }
       event.preventDefault();
     });
-    canvas.addEventListener('keyup', (event) => this.held.delete(event.code));
-    canvas.addEventListener('blur', () => this.held.clear());
+    document.addEventListener('keyup', (event) => this.held.delete(event.code));
+    window.addEventListener('blur', () => this.held.clear());
   }
 
   /** Looks to the left and up by these angles. */
