@@ -67,7 +67,7 @@ pub(super) fn solve() -> String {
         (true, "  .vtu  the elements with light and surface, for ParaView"),
         (png, "  .png  a picture"),
         (exr, "  .exr  a picture in linear, unclamped exitance"),
-        (true, "  .probe.csv  exitance at the places of --probe"),
+        (true, "  .probe.csv  exitance and irradiance at the places of --probe"),
         (true, ""),
     ]);
     solve + "Exit codes: 0 done, or stopped by a limit or Ctrl-C; 1 failed, 2 wrong command line."
