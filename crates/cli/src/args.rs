@@ -6,6 +6,7 @@ mod form_factors;
 mod help;
 mod live;
 mod picture;
+mod probe_grid;
 mod shooting;
 mod snapshot;
 #[cfg(feature = "html")]
@@ -22,6 +23,7 @@ pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 pub(crate) use help::CONVERTED;
 pub(crate) use live::LiveArgs;
 pub(crate) use picture::PictureArgs;
+pub(crate) use probe_grid::ProbeGridArgs;
 pub(crate) use shooting::{ShootingArgs, SplitArg};
 pub(crate) use snapshot::Every;
 #[cfg(feature = "html")]
@@ -54,6 +56,8 @@ pub(crate) enum Command {
     Convert(ConvertArgs),
     /// Measure how far two solutions (.csv) are apart
     Compare(CompareArgs),
+    /// Make places for `solve --probe`: a grid over a floor or a work plane
+    ProbeGrid(ProbeGridArgs),
     /// Check known answers on this machine: closed forms, known solutions, the bundled scenes
     #[cfg(feature = "verify")]
     Verify(VerifyArgs),
@@ -182,9 +186,11 @@ pub(crate) struct SolveArgs {
     #[arg(long)]
     pub(crate) no_statement: bool,
 
-    /// Places to report the exitance at: a CSV with the columns triangle,u,v (input triangle
-    /// from 0, and barycentric: a + u (b - a) + v (c - a)), written to -o NAME.probe.csv. With a
-    /// column `area`, the mean over the part of the triangle of that area around the place
+    /// Places to report the light at, written to -o NAME.probe.csv: a CSV with the columns
+    /// triangle,u,v (input triangle from 0, and barycentric: a + u (b - a) + v (c - a)), or
+    /// x,y,z,nx,ny,nz for places in the open, which `radiosity probe-grid` makes. With a column
+    /// `area`, the mean over the part of the triangle of that area around the place. Written is the
+    /// exitance of the surface, B, and the irradiance, E: the power that arrives per area
     #[arg(long, value_name = "POINTS.csv")]
     pub(crate) probe: Option<PathBuf>,
 

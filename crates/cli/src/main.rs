@@ -60,6 +60,7 @@ fn run(args: Args) -> Result<(), Failure> {
             settings::form_factors(args).and_then(|s| commands::form_factors::run(&s))
         }
         Some(Command::Compare(args)) => commands::compare::run(&args),
+        Some(Command::ProbeGrid(args)) => commands::probe_grid::run(&args),
         #[cfg(feature = "verify")]
         Some(Command::Verify(args)) => commands::verify::run(&args),
         #[cfg(feature = "html")]

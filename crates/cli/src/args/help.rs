@@ -73,7 +73,7 @@ pub(super) fn solve() -> String {
         (png, "  .png  a picture"),
         (exr, "  .exr  a picture in linear, unclamped exitance"),
         (html, "  .html  a page to walk about in, with the report; needs no network"),
-        (true, "  .probe.csv  exitance at the places of --probe"),
+        (true, "  .probe.csv  exitance and irradiance at the places of --probe"),
         (true, ""),
     ]);
     solve + "Exit codes: 0 done, or stopped by a limit or Ctrl-C; 1 failed, 2 wrong command line."

@@ -5,6 +5,7 @@ pub(crate) mod convert;
 #[cfg(feature = "form-factors")]
 pub(crate) mod form_factors;
 pub(crate) mod plan;
+pub(crate) mod probe_grid;
 pub(crate) mod solve;
 #[cfg(feature = "verify")]
 pub(crate) mod verify;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use output::Format;
-use output::csv::Place;
+use output::csv::{FreePlace, Place, Places};
 use radiosity_core::{Mesh, Plan, Probe, Refined, StopReason};
 use scene::{Scene, TriangleId};
 use scene_import::Imported;
@@ -102,21 +102,19 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
 
     let places = match &settings.probe {
         Some(path) => places(path, &imported.scene)?,
-        None => Vec::new(),
+        None => Places::Surface(Vec::new()),
     };
     if let Some(budget) = Budget::of(settings, &imported.scene) {
         budget.check()?;
     }
     let timed = settings.limits.time.is_some();
     let goal = (settings.goal, settings.shooting.correction, timed);
-    let prepared = prepared::prepare(
-        &imported.scene,
-        &settings.work,
-        &settings.read,
-        goal,
-        settings.shooting.sharing,
-    )?;
-    let probes: Vec<Probe> = places.iter().map(probe).collect();
+    // What a plan knows of surfaces does not hold in the open.
+    let open = matches!(&places, Places::Free(free) if !free.is_empty());
+    let work = Work { everything: settings.work.everything || open, ..settings.work };
+    let prepared =
+        prepared::prepare(&imported.scene, &work, &settings.read, goal, settings.shooting.sharing)?;
+    let probes = probes(&places);
     let snapshots = Snapshots::of(settings, &imported.scene, &options);
     let mut live = Live::start(settings, &file, &imported, &options)?;
     let scene = &imported.scene;
@@ -169,13 +167,14 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Reads the places to report the exitance at.
-fn places(path: &Path, scene: &Scene) -> Result<Vec<Place>, Failure> {
+/// Reads the places to report the light at.
+fn places(path: &Path, scene: &Scene) -> Result<Places, Failure> {
     let file = File::open(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
     let places = output::csv::read_places(file).map_err(|e| e.at(path))?;
     let triangles = scene.triangles().len();
+    let Places::Surface(on_triangles) = &places else { return Ok(places) };
     // The header is the first line.
-    match places.iter().zip(2..).find(|(place, _)| place.triangle as usize >= triangles) {
+    match on_triangles.iter().zip(2..).find(|(place, _)| place.triangle as usize >= triangles) {
         None => Ok(places),
         Some((place, line)) => Err(Failure::Failed(format!(
             "{}:{line}: triangle {}, expected one of the scene's {triangles}, counted from 0",
@@ -185,8 +184,20 @@ fn places(path: &Path, scene: &Scene) -> Result<Vec<Place>, Failure> {
     }
 }
 
-fn probe(place: &Place) -> Probe {
-    Probe { triangle: TriangleId(place.triangle), uv: place.uv, area: place.area }
+fn probes(places: &Places) -> Vec<Probe> {
+    let on = |&Place { triangle, uv, area }: &Place| Probe::Surface {
+        triangle: TriangleId(triangle),
+        uv,
+        area,
+    };
+    let free = |place: &FreePlace| Probe::Free {
+        position: place.position.into(),
+        normal: place.normal.into(),
+    };
+    match places {
+        Places::Surface(all) => all.iter().map(on).collect(),
+        Places::Free(all) => all.iter().map(free).collect(),
+    }
 }
 
 /// Segments keep off surfaces by a length that grows with the whole scene: one triangle far
@@ -267,7 +278,7 @@ fn write(
     target: &Target,
     imported: &Imported,
     solved: &Solved,
-    places: &[Place],
+    places: &Places,
     options: &output::Options,
     report: impl FnOnce() -> Report,
 ) -> Result<String, Failure> {
@@ -278,8 +289,10 @@ fn write(
             Ok(path.display().to_string())
         }
         Target::Probes(path) => {
-            let light = &solved.refined.probes;
-            output::replace_file(path, |out| output::csv::write_places(out, places, light))?;
+            let Refined { probes, probe_irradiance, .. } = &solved.refined;
+            output::replace_file(path, |out| {
+                output::csv::write_probes(out, places, probes, probe_irradiance)
+            })?;
             Ok(path.display().to_string())
         }
         #[cfg(feature = "html")]

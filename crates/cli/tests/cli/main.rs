@@ -4,6 +4,8 @@
 
 mod features;
 mod plan;
+#[cfg(feature = "obj")]
+mod probe_grid;
 mod solve;
 mod statement;
 mod stopping;

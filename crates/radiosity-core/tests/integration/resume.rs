@@ -154,7 +154,7 @@ fn corrections_and_closed_rows_go_on_alike() {
 fn probes_and_paired_surfaces_go_on_alike() {
     let mut case = Case::new(shadows(0.4), Asked::Elements(500));
     case.probes = [None, Some(0.01)]
-        .map(|area| Probe { triangle: TriangleId(0), uv: [0.3, 0.4], area })
+        .map(|area| Probe::Surface { triangle: TriangleId(0), uv: [0.3, 0.4], area })
         .to_vec();
     let whole = goes_on_alike("probes", &case);
     assert!(whole.probes.len() == 2 && whole.probes.iter().all(|p| p[0] > 0.0));
@@ -194,9 +194,10 @@ fn states_of_other_work_are_refused() {
     assert!(refused(&Case::new(shadows(0.7), Asked::Elements(500))));
     assert!(refused(&Case::new(shadows(0.7), Asked::Unstated(500))));
     let mut other = Case::new(shadows(0.7), Asked::Error(0.08));
-    other.probes.push(Probe { triangle: TriangleId(0), uv: [0.3, 0.4], area: None });
+    let probe = |area| Probe::Surface { triangle: TriangleId(0), uv: [0.3, 0.4], area };
+    other.probes.push(probe(None));
     assert!(refused(&other));
-    other.probes[0].area = Some(0.1);
+    other.probes[0] = probe(Some(0.1));
     assert!(refused(&other));
     let mut other = Case::new(shadows(0.7), Asked::Error(0.08));
     other.config.correction = radiosity_core::Correction::Never;
