@@ -1,10 +1,15 @@
 //! The JSON, validated, and the buffers it names.
 
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::rc::Rc;
+
 use gltf::json::mesh::Semantic;
 use gltf::json::validation::Checked;
 use gltf::{Document, Gltf};
 
 use super::uri;
+use crate::beside::Beside;
 use crate::open::Source;
 use crate::{Error, ErrorKind};
 
@@ -14,12 +19,13 @@ const GLB_HEADER: u32 = 12;
 /// A validated document with its buffers.
 pub(super) struct Parsed {
     pub(super) document: Document,
-    pub(super) buffers: Vec<Vec<u8>>,
+    /// Buffers that name one file share its bytes.
+    pub(super) buffers: Vec<Rc<[u8]>>,
 }
 
 impl Parsed {
     /// Parses and validates, then fetches the buffers.
-    pub(super) fn new(source: &Source<'_>) -> Result<Self, Error> {
+    pub(super) fn new(source: &Source<'_>, beside: &mut Beside<'_>) -> Result<Self, Error> {
         let fail = |cause| failure(source.name, cause);
         check_stated_length(source)?;
         let Gltf { document, blob } =
@@ -27,7 +33,7 @@ impl Parsed {
         let json = document.into_json();
         check_positions(source.name, &json)?;
         let document = Document::from_json(json).map_err(fail)?;
-        let buffers = buffers(source, &document, blob)?;
+        let buffers = buffers(source, &document, blob, beside)?;
         Ok(Self { document, buffers })
     }
 }
@@ -65,20 +71,24 @@ fn buffers(
     source: &Source<'_>,
     document: &Document,
     blob: Option<Vec<u8>>,
-) -> Result<Vec<Vec<u8>>, Error> {
+    beside: &mut Beside<'_>,
+) -> Result<Vec<Rc<[u8]>>, Error> {
     let mut blob = blob;
     let mut buffers = Vec::new();
+    let mut files = HashMap::new();
     for buffer in document.buffers() {
         let fail = |reason: String| {
             let message = format!("buffers[{}]: {reason}", buffer.index());
             Error::new(ErrorKind::Invalid, source.name, message)
         };
         let data = match buffer.source() {
-            gltf::buffer::Source::Bin => {
-                blob.take().ok_or_else(|| fail("expected one binary chunk for it".to_owned()))
-            }
-            gltf::buffer::Source::Uri(uri) => uri::fetch(uri, source.folder)
-                .map_err(|reason| fail(format!("cannot be read: {reason}"))),
+            gltf::buffer::Source::Bin => blob
+                .take()
+                .map(Rc::from)
+                .ok_or_else(|| fail("expected one binary chunk for it".to_owned())),
+            gltf::buffer::Source::Uri(uri) => fetch(uri, beside, &mut files).map_err(|reason| {
+                fail(format!("{} cannot be read: {reason}", uri::shortened(uri)))
+            }),
         }?;
         if data.len() < buffer.length() {
             return Err(fail(format!("expected {} bytes, found {}", buffer.length(), data.len())));
@@ -86,6 +96,24 @@ fn buffers(
         buffers.push(data);
     }
     Ok(buffers)
+}
+
+/// The bytes of a buffer; those of a file once, however many buffers name it.
+fn fetch(
+    uri: &str,
+    beside: &mut Beside<'_>,
+    files: &mut HashMap<PathBuf, Rc<[u8]>>,
+) -> Result<Rc<[u8]>, String> {
+    if let Some(data) = uri::data(uri) {
+        return data.map(Rc::from);
+    }
+    let path = beside.find(&uri::path(uri)?)?;
+    if let Some(known) = files.get(&path) {
+        return Ok(Rc::clone(known));
+    }
+    let bytes: Rc<[u8]> = beside.read_found(&path)?.into();
+    files.insert(path, Rc::clone(&bytes));
+    Ok(bytes)
 }
 
 fn failure(file: &str, cause: gltf::Error) -> Error {

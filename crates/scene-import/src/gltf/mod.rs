@@ -17,10 +17,13 @@ mod walk;
 use scene::{Camera, TriangleId};
 
 use crate::assembler::Assembler;
+use crate::beside::Beside;
 use crate::open::Source;
+use crate::shortened::shortened;
 use crate::{DiagnosticKind, Error, Format, Imported, Options};
 use budget::Budget;
 use document::Parsed;
+use layer::Images;
 use stated::Stated;
 use surface::Surfaces;
 use walk::Placed;
@@ -50,29 +53,31 @@ pub(crate) fn read(
     format: Format,
     options: &Options,
 ) -> Result<Imported, Error> {
-    let parsed = Parsed::new(source)?;
-    let mut assembler = Assembler::new(source.name, options.sides);
+    let mut beside = Beside::new(source.folder, options.allow_outside);
+    let parsed = Parsed::new(source, &mut beside)?;
+    let bytes = source.bytes.len().saturating_add(beside.bytes());
+    let mut assembler = Assembler::new(source.name, options.sides, bytes);
     let stated = Stated::new(&parsed.document, source.name, &mut assembler)?;
     range::check(source.name, parsed.document.as_json(), &stated)?;
     warn_about_document(&parsed, &stated, source.name, &mut assembler);
-    let mut budget = Budget::new(
-        source.name,
-        source.bytes.len() + parsed.buffers.iter().map(Vec::len).sum::<usize>(),
-    );
-    let mut surfaces = Surfaces::new(source, &parsed, &stated);
+    let mut budget = Budget::new(source.name, bytes);
+    let images = Images::new(&parsed, source.bytes.len(), beside);
+    let mut surfaces = Surfaces::new(images, &parsed, &stated);
     let mut runs = Vec::new();
     for placed in walk::walk(&parsed.document, &stated, source.name)? {
         let Placed { node, world } = &placed;
         let path = format!("nodes[{}]", node.index());
         if let Some(camera) = node.camera() {
             match convert_camera(&camera, &stated, &placed) {
-                Ok(camera) => assembler.camera(camera),
+                Ok(camera) => assembler.camera(camera)?,
                 Err(what) => assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str()),
             }
         }
         if let Some(light) = node.light() {
-            let what =
-                format!("light {}: only surfaces emit", light.name().unwrap_or("without a name"));
+            let what = format!(
+                "light {}: only surfaces emit",
+                shortened(light.name().unwrap_or("without a name"))
+            );
             assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str());
         }
         let Some(mesh) = node.mesh() else { continue };
@@ -81,8 +86,8 @@ pub(crate) fn read(
             assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str());
         }
         let group = match node.name().or(mesh.name()) {
-            Some(name) => assembler.new_group(name),
-            None => assembler.new_group(&format!("node {}", node.index())),
+            Some(name) => assembler.new_group(name)?,
+            None => assembler.new_group(&format!("node {}", node.index()))?,
         };
         for primitive in mesh.primitives() {
             if stated.is_back(mesh.index(), primitive.index()) {

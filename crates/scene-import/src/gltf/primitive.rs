@@ -34,12 +34,14 @@ pub(super) fn add(
         |what: String| assembler.warn(DiagnosticKind::Ignored { what }, None, place.path);
     let Some(mode) = Assembly::of(primitive.mode()) else {
         ignore(format!("primitive of {:?}", primitive.mode()));
-        return Ok(());
+        return budget.triangles(0, place.path);
     };
     if primitive.morph_targets().len() > 0 {
         ignore("morph targets: the mesh stands as modelled".to_owned());
     }
-    let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(()) };
+    let Some(positions) = primitive.get(&Semantic::Positions) else {
+        return budget.triangles(0, place.path);
+    };
     let positions: Vec<[f64; 3]> = accessor::read(&positions, parsed, budget)?;
     let order = match primitive.indices() {
         Some(indices) => Some(accessor::read_indices(&indices, parsed, budget)?),
