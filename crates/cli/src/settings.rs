@@ -257,7 +257,12 @@ pub(crate) fn read(args: &ReadArgs) -> Result<Read, Failure> {
         SidesArg::Both => (SidesRule::Both, Exchange::OneSided),
         SidesArg::Paired => (SidesRule::Front, Exchange::Paired),
     };
-    let options = scene_import::Options { tri_light: args.light, tri_reflect: args.reflect, sides };
+    let options = scene_import::Options {
+        tri_light: args.light,
+        tri_reflect: args.reflect,
+        sides,
+        allow_outside: args.beside.allow_outside(),
+    };
     Ok(Read { options, exchange })
 }
 
