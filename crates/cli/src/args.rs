@@ -82,6 +82,30 @@ pub(crate) struct ReadArgs {
     /// Reflectance of a surface whose front colour is 255 (.tri only)
     #[arg(long, value_name = "X", default_value_t = 0.5)]
     pub(crate) reflect: f64,
+
+    #[command(flatten)]
+    pub(crate) beside: BesideArgs,
+}
+
+/// Which files a scene may name: nothing to say where no format names any.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(crate) struct BesideArgs {
+    /// Read the files that the scene names (buffers, textures, material libraries) wherever they lie;
+    /// else only in its own folder and below. For scenes whose maker you trust
+    #[cfg(any(feature = "obj", feature = "gltf"))]
+    #[arg(long)]
+    allow_outside: bool,
+}
+
+impl BesideArgs {
+    /// Whether files outside the scene's folder are read.
+    pub(crate) fn allow_outside(&self) -> bool {
+        #[cfg(any(feature = "obj", feature = "gltf"))]
+        let allow = self.allow_outside;
+        #[cfg(not(any(feature = "obj", feature = "gltf")))]
+        let allow = false;
+        allow
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

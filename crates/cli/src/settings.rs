@@ -283,6 +283,7 @@ pub(crate) fn read(args: &ReadArgs) -> Result<Read, Failure> {
         tri_reflect: args.reflect,
         sides,
         keep_document: false,
+        allow_outside: args.beside.allow_outside(),
     };
     Ok(Read { options, exchange })
 }

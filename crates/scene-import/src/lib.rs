@@ -16,6 +16,7 @@ mod obj;
 mod open;
 mod options;
 mod range;
+mod shortened;
 #[cfg(any(feature = "obj", feature = "gltf"))]
 mod texture;
 mod tri;

@@ -11,10 +11,11 @@ use crate::TriangleId;
 pub struct Document {
     /// The JSON: nodes, names, materials, animations and what no reader here understands.
     pub json: String,
-    /// The bytes of each of its buffers.
-    pub buffers: Vec<Vec<u8>>,
-    /// The encoded bytes of each of its images that lay in a file of its own.
-    pub images: Vec<Option<Vec<u8>>>,
+    /// The bytes of each of its buffers; those that are one file share them.
+    pub buffers: Vec<Arc<[u8]>>,
+    /// The encoded bytes of each of its images that lay in a file of its own; images of one file
+    /// share them.
+    pub images: Vec<Option<Arc<[u8]>>>,
     /// What each mesh became under each node, in the order of the scene's triangles.
     pub shapes: Vec<Shape>,
 }

@@ -248,8 +248,9 @@ fn keep_document(_: &str, _: &mut Imported) -> Result<Option<Arc<scene::Document
 /// Refuses factors that only .tri files know, for any other scene.
 pub(crate) fn check_factors(name: &str, imported: &Imported, read: &Read) -> Result<(), Failure> {
     let format = imported.summary.format;
-    let plain = scene_import::Options { sides: read.options.sides, ..Default::default() };
-    if format == scene_import::Format::Tri || read.options == plain {
+    let plain = scene_import::Options::default();
+    let [given, plain] = [read.options, plain].map(|o| (o.tri_light, o.tri_reflect));
+    if format == scene_import::Format::Tri || given == plain {
         return Ok(());
     }
     let message = format!("--light, --reflect: are for .tri files, and {name} is {format}");

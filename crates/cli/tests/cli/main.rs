@@ -3,6 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
 
 mod features;
+#[cfg(feature = "obj")]
+mod outside;
 mod plan;
 #[cfg(feature = "obj")]
 mod probe_grid;

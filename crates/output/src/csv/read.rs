@@ -39,12 +39,16 @@ const UV: std::ops::Range<usize> = 10..12;
 /// a handful of operations.
 const UNIT_SLACK: f64 = 4.0 * f64::EPSILON;
 
+/// Bytes of a line: far more than any table has, and little enough for a source without end.
+const MAX_LINE: u64 = 1 << 20;
+
 /// Reads rows by the names in the first line, in any order: `triangle`, `area`, `B_r`,
 /// `B_g`, `B_b`, and where present `se_r`, `se_g`, `se_b`, `emits`, `ambiguous` (0 or 1), `u`,
 /// `v`. Other columns are passed over.
 ///
 /// # Errors
-/// [`ErrorKind::Text`] with line and column for a missing, repeated or malformed value;
+/// [`ErrorKind::Text`] with line and column for a missing, repeated or malformed value, and for a
+/// line of a mebibyte or more;
 /// [`ErrorKind::Read`] for what the source answers.
 ///
 /// # Examples
@@ -97,9 +101,13 @@ fn lines<T>(
     let mut read: Option<(Header, T)> = None;
     for line in 1.. {
         bytes.clear();
-        let length = source.read_until(b'\n', &mut bytes);
-        if length.map_err(|e| Error::caused(ErrorKind::Read, e))? == 0 {
+        let length = source.by_ref().take(MAX_LINE).read_until(b'\n', &mut bytes);
+        let length = length.map_err(|e| Error::caused(ErrorKind::Read, e))?;
+        if length == 0 {
             break;
+        }
+        if length as u64 == MAX_LINE {
+            return Err(fail(line, 1, format!("expected a line of less than {MAX_LINE} bytes")));
         }
         let text = Line::new(line, &bytes)?;
         match &mut read {

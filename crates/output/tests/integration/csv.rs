@@ -113,6 +113,18 @@ fn places_are_read_carried_and_compared() {
 }
 
 #[test]
+fn a_line_without_end_is_refused() {
+    // Memory would end before such a source does.
+    let head = "triangle,area,B_r,B_g,B_b\n".as_bytes();
+    let endless = || std::io::Read::chain(head, std::io::repeat(b','));
+    let error = read(endless()).unwrap_err();
+    assert_eq!(error.to_string(), "2:1: expected a line of less than 1048576 bytes");
+    assert!(csv::read_places(endless()).is_err());
+    let long = format!("triangle,area,B_r,B_g,B_b,{}\n", "x".repeat(1_000_000));
+    assert_eq!(read(long.as_bytes()).unwrap(), []);
+}
+
+#[test]
 fn places_outside_their_triangle_are_refused() {
     for (text, expected) in [
         ("triangle,u,v\n0,0.6,0.6\n", "2:7: v: expected u + v of at most 1, found \"0.6\""),

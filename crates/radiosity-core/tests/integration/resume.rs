@@ -207,6 +207,24 @@ fn states_of_other_work_are_refused() {
     assert!(refused(&other));
 }
 
+#[test]
+fn a_state_cannot_ask_for_a_first_mesh_of_any_size() {
+    // The default limit on elements, which keeps nobody from 2³⁰ of them.
+    let case = Case::new(shadows(0.7), Asked::Error(0.2));
+    let mut keeper = Keeper { last: Some(1), ..Keeper::default() };
+    case.solve(&mut keeper);
+    let mut kept = keeper.kept.remove(0);
+    assert!(case.resume(&kept, &mut Brief(0)).is_ok());
+    // Work of five numbers, then the limit on elements, the number of meshes and the first one's
+    // elements: 8 bytes each, but for the unshot share, which is 8 as well.
+    let at = 7 * 8;
+    let elements = u64::from_le_bytes(kept[at..at + 8].try_into().unwrap());
+    assert!((1..10_000).contains(&elements), "{elements}");
+    kept[at..at + 8].copy_from_slice(&200_000_000_u64.to_le_bytes());
+    let error = case.resume(&kept, &mut Brief(0)).unwrap_err();
+    assert_eq!(error.to_string(), "its meshes do not follow from each other");
+}
+
 /// Stops soon, so that states that make no sense do not take long.
 struct Brief(u32);
 

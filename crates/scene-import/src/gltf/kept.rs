@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use scene::{Document, Shape, TriangleId};
 
-use super::document::Parsed;
+use super::document::{Parsed, fetch};
 use super::primitive::Added;
 use super::uri;
 use crate::DiagnosticKind;
 use crate::assembler::Assembler;
-use crate::open::Source;
+use crate::beside::Beside;
 
 /// Notes which triangles came from where, if anybody wants to know.
 pub(super) struct Keeper {
@@ -48,15 +48,16 @@ impl Keeper {
     pub(super) fn finish(
         self,
         parsed: Parsed,
-        source: &Source<'_>,
+        mut beside: Beside<'_>,
         assembler: &mut Assembler<'_>,
     ) -> Option<Document> {
         let Parsed { document, buffers, text } = parsed;
         let json = text.filter(|_| self.wanted)?;
+        let mut files = HashMap::new();
         let images = document.as_json().images.iter().enumerate();
         let images = images.map(|(index, image)| {
             let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"))?;
-            match uri::fetch(uri, source.folder) {
+            match fetch(uri, &mut beside, &mut files) {
                 Ok(bytes) => Some(bytes),
                 Err(reason) => {
                     let name = uri::shortened(uri);

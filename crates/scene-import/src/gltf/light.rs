@@ -17,9 +17,26 @@ const ATTRIBUTE: &str = "RADIOSITY";
 #[derive(Default)]
 pub(super) struct Light {
     elements: Vec<(TriangleId, Face, [Rgb; 3])>,
+    /// Display light per exitance.
+    exposure: f64,
 }
 
 impl Light {
+    /// Reads how the file's colours were made.
+    pub(super) fn read_exposure(&mut self, parsed: &Parsed, file: &str) -> Result<(), Error> {
+        let extras = parsed.document.as_json().asset.extras.as_ref();
+        let extras: Value =
+            extras.and_then(|e| serde_json::from_str(e.get()).ok()).unwrap_or_default();
+        let scale = extras.pointer("/radiosity/exposureScale").and_then(Value::as_f64);
+        let sound = scale.filter(|scale| scale.is_finite() && *scale > 0.0);
+        self.exposure = sound.ok_or_else(|| {
+            let message = "asset.extras.radiosity.exposureScale: expected a number above 0, as \
+                           `radiosity solve` writes it";
+            Error::new(ErrorKind::Invalid, file, message)
+        })?;
+        Ok(())
+    }
+
     /// Adds the light of a primitive's triangles. One without light is no element: nothing of it
     /// was to be seen.
     pub(super) fn add(
@@ -54,9 +71,9 @@ impl Light {
         Ok(())
     }
 
-    /// The elements as a solution of the scene that was read; their own exitance is the mean of
-    /// their corners, as the file has no other.
-    pub(super) fn solution(self, scene: &Scene, file: &str) -> Result<Solution, Error> {
+    /// The elements as a solution of the scene that was read, and display light per exitance. Their
+    /// own exitance is the mean of their corners, as the file has no other.
+    pub(super) fn solution(self, scene: &Scene, file: &str) -> Result<(Solution, f64), Error> {
         if self.elements.is_empty() {
             let message = "no mesh has _RADIOSITY: expected a .glb that `radiosity solve` wrote";
             return Err(Error::new(ErrorKind::Invalid, file, message));
@@ -70,18 +87,6 @@ impl Light {
                 corner_exitance,
             };
         let elements = self.elements.into_iter().map(element).collect();
-        Ok(Solution { vertices: scene.vertices().to_vec(), elements })
+        Ok((Solution { vertices: scene.vertices().to_vec(), elements }, self.exposure))
     }
-}
-
-/// Display light per exitance, as the file's colours were made.
-pub(super) fn exposure(parsed: &Parsed, file: &str) -> Result<f64, Error> {
-    let extras = parsed.document.as_json().asset.extras.as_ref();
-    let extras: Value = extras.and_then(|e| serde_json::from_str(e.get()).ok()).unwrap_or_default();
-    let scale = extras.pointer("/radiosity/exposureScale").and_then(Value::as_f64);
-    scale.filter(|scale| scale.is_finite() && *scale > 0.0).ok_or_else(|| {
-        let message = "asset.extras.radiosity.exposureScale: expected a number above 0, as \
-                       `radiosity solve` writes it";
-        Error::new(ErrorKind::Invalid, file, message)
-    })
 }

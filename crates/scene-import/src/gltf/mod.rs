@@ -20,11 +20,14 @@ mod walk;
 use scene::{Camera, Face, TriangleId};
 
 use crate::assembler::Assembler;
+use crate::beside::Beside;
 use crate::open::Source;
+use crate::shortened::shortened;
 use crate::{DiagnosticKind, Error, Format, Imported, Lit, Options, SidesRule};
 use budget::Budget;
 use document::{Parsed, Wanted};
 use kept::Keeper;
+use layer::Images;
 use light::Light;
 use stated::Stated;
 use surface::Surfaces;
@@ -55,41 +58,42 @@ pub(crate) fn read(
     format: Format,
     options: &Options,
 ) -> Result<Imported, Error> {
-    let parsed = Parsed::new(source, Wanted { text: options.keep_document, light: false })?;
-    read_parsed(source, parsed, format, options, None)
+    read_document(source, format, options, None)
 }
 
 /// Reads the elements of a file that this project has lit, each from its own side, and their light.
 pub(crate) fn read_lit(source: &Source<'_>) -> Result<Lit, Error> {
-    let parsed = Parsed::new(source, Wanted { text: false, light: true })?;
-    let exposure = light::exposure(&parsed, source.name)?;
     let mut light = Light::default();
     let options = Options { sides: SidesRule::Front, ..Options::default() };
     let Imported { scene, mut diagnostics, .. } =
-        read_parsed(source, parsed, Format::Glb, &options, Some(&mut light))?;
+        read_document(source, Format::Glb, &options, Some(&mut light))?;
     // What is odd about single triangles was so before they were lit, or comes of their being cut.
     diagnostics.retain(|diagnostic| diagnostic.triangle.is_none());
-    let solution = light.solution(&scene, source.name)?;
+    let (solution, exposure) = light.solution(&scene, source.name)?;
     Ok(Lit { scene, solution, exposure, diagnostics })
 }
 
-/// Reads a parsed document; the primitives of backs only where their light is wanted.
-fn read_parsed(
+/// Reads a document; its light, and the primitives of backs, only where they are wanted.
+fn read_document(
     source: &Source<'_>,
-    parsed: Parsed,
     format: Format,
     options: &Options,
     mut light: Option<&mut Light>,
 ) -> Result<Imported, Error> {
-    let mut assembler = Assembler::new(source.name, options.sides);
+    let mut beside = Beside::new(source.folder, options.allow_outside);
+    let wanted = Wanted { text: options.keep_document, light: light.is_some() };
+    let parsed = Parsed::new(source, wanted, &mut beside)?;
+    if let Some(light) = light.as_deref_mut() {
+        light.read_exposure(&parsed, source.name)?;
+    }
+    let bytes = source.bytes.len().saturating_add(beside.bytes());
+    let mut assembler = Assembler::new(source.name, options.sides, bytes);
     let stated = Stated::new(&parsed.document, source.name, &mut assembler)?;
     range::check(source.name, parsed.document.as_json(), &stated)?;
     warn_about_document(&parsed, &stated, source.name, &mut assembler);
-    let mut budget = Budget::new(
-        source.name,
-        source.bytes.len() + parsed.buffers.iter().map(Vec::len).sum::<usize>(),
-    );
-    let mut surfaces = Surfaces::new(source, &parsed, &stated);
+    let mut budget = Budget::new(source.name, bytes);
+    let images = Images::new(&parsed, source.bytes.len(), beside);
+    let mut surfaces = Surfaces::new(images, &parsed, &stated);
     let mut runs = Vec::new();
     let mut keeper = Keeper::new(options.keep_document);
     for placed in walk::walk(&parsed.document, &stated, source.name)? {
@@ -97,13 +101,15 @@ fn read_parsed(
         let path = format!("nodes[{}]", node.index());
         if let Some(camera) = node.camera() {
             match convert_camera(&camera, &stated, &placed) {
-                Ok(camera) => assembler.camera(camera),
+                Ok(camera) => assembler.camera(camera)?,
                 Err(what) => assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str()),
             }
         }
         if let Some(light) = node.light() {
-            let what =
-                format!("light {}: only surfaces emit", light.name().unwrap_or("without a name"));
+            let what = format!(
+                "light {}: only surfaces emit",
+                shortened(light.name().unwrap_or("without a name"))
+            );
             assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str());
         }
         let Some(mesh) = node.mesh() else { continue };
@@ -112,8 +118,8 @@ fn read_parsed(
             assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str());
         }
         let group = match node.name().or(mesh.name()) {
-            Some(name) => assembler.new_group(name),
-            None => assembler.new_group(&format!("node {}", node.index())),
+            Some(name) => assembler.new_group(name)?,
+            None => assembler.new_group(&format!("node {}", node.index()))?,
         };
         for primitive in mesh.primitives() {
             let is_back = stated.is_back(mesh.index(), primitive.index());
@@ -140,7 +146,8 @@ fn read_parsed(
         }
     }
     drop(surfaces);
-    let document = keeper.finish(parsed, source, &mut assembler);
+    let beside = Beside::new(source.folder, options.allow_outside);
+    let document = keeper.finish(parsed, beside, &mut assembler);
     let imported = assembler.finish(format, |id| place(&runs, id));
     Ok(Imported { document, ..imported })
 }

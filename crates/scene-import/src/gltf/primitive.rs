@@ -43,12 +43,14 @@ pub(super) fn add(
         |what: String| assembler.warn(DiagnosticKind::Ignored { what }, None, place.path);
     let Some(mode) = Assembly::of(primitive.mode()) else {
         ignore(format!("primitive of {:?}", primitive.mode()));
-        return Ok(none());
+        return budget.triangles(0, place.path).map(|()| none());
     };
     if primitive.morph_targets().len() > 0 {
         ignore("morph targets: the mesh stands as modelled".to_owned());
     }
-    let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(none()) };
+    let Some(positions) = primitive.get(&Semantic::Positions) else {
+        return budget.triangles(0, place.path).map(|()| none());
+    };
     let positions: Vec<[f64; 3]> = accessor::read(&positions, parsed, budget)?;
     let order = match primitive.indices() {
         Some(indices) => Some(accessor::read_indices(&indices, parsed, budget)?),

@@ -30,7 +30,7 @@ fn shapes_say_which_triangles_came_from_where() {
     assert_eq!([shapes[0].mirrored, shapes[1].mirrored], [false, true]);
     // A strip: every other triangle runs the other way round.
     assert_eq!(*shapes[0].corners, [[0, 1, 2], [1, 3, 2]]);
-    assert_eq!(document.buffers, [glb.bin().to_vec()]);
+    assert_eq!(document.buffers, [glb.bin().into()]);
     let json: Value = serde_json::from_str(&document.json).expect("the JSON of the file");
     assert_eq!(json["nodes"][0]["name"], "empty");
 }
@@ -51,7 +51,7 @@ fn images_come_along_and_a_missing_one_is_named() {
     let said = warnings(&imported);
     assert!(said.iter().any(|w| w.contains("images[1]") && w.contains("gone.png")), "{said:?}");
     let document = imported.document.expect("it was asked for");
-    assert_eq!(document.images, [Some(b"any bytes".to_vec()), None, None]);
+    assert_eq!(document.images, [Some(b"any bytes"[..].into()), None, None]);
 }
 
 #[test]

@@ -16,6 +16,8 @@ mod hostile;
 mod lint;
 #[cfg(feature = "obj")]
 mod obj;
+#[cfg(all(feature = "gltf", feature = "obj"))]
+mod outside;
 mod shared_scenes;
 mod tri;
 mod tri_records;

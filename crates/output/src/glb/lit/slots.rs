@@ -171,14 +171,19 @@ impl Slots {
     /// where it is.
     fn take_in_images(&mut self, root: &mut Map<String, Value>, document: &Document) {
         let images = root.get_mut("images").and_then(Value::as_array_mut);
+        // Images of one file share its bytes, and so a view.
+        let mut known: HashMap<*const u8, usize> = HashMap::new();
         for (image, bytes) in images.into_iter().flatten().zip(&document.images) {
             let Some((bytes, kind)) = bytes.as_ref().and_then(|b| Some((b, mime_type(b)?))) else {
                 continue;
             };
+            let view = *known
+                .entry(bytes.as_ptr())
+                .or_insert_with(|| self.view(json!({}), bytes.to_vec()));
             if let Some(members) = image.as_object_mut() {
                 members.remove("uri");
                 members.insert("mimeType".to_owned(), json!(kind));
-                members.insert("bufferView".to_owned(), json!(self.view(json!({}), bytes.clone())));
+                members.insert("bufferView".to_owned(), json!(view));
             }
         }
     }

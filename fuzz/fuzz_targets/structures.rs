@@ -1,6 +1,6 @@
 //! Octree, BVH and brute force, one by one and in batches: one answer.
 //!
-//! `cargo +nightly fuzz run structures` from `crates/accel`.
+//! More than whether it fails: whether all say the same.
 
 #![no_main]
 
