@@ -6,6 +6,8 @@ mod bench;
 mod built;
 mod ci;
 mod dependencies;
+#[cfg(test)]
+mod examples;
 mod figure;
 mod instructions;
 mod needs;

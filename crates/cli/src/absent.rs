@@ -14,9 +14,9 @@ const WORDS: &[(&str, &str)] = &[
     ("--resume", "checkpoint"),
     #[cfg(not(feature = "form-factors"))]
     ("form-factors", "form-factors"),
-    #[cfg(not(feature = "png"))]
+    #[cfg(not(any(feature = "exr", feature = "png")))]
     ("--camera", "png"),
-    #[cfg(not(feature = "png"))]
+    #[cfg(not(any(feature = "exr", feature = "png")))]
     ("--size", "png"),
     #[cfg(not(feature = "verify"))]
     ("verify", "verify"),

@@ -2,6 +2,7 @@
 //!
 //! The figures are upper bounds of the sizes in docs/performance/memory.md.
 
+use output::Format;
 use radiosity_core::Schedule;
 use scene::{Scene, Sides};
 
@@ -125,7 +126,9 @@ impl Budget {
     pub(crate) fn of(settings: &Solve, scene: &Scene) -> Option<Self> {
         let limit = settings.limits.memory?;
         let picture = |t: &Target| match t {
-            Target::File(path) => path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")),
+            Target::File(path) => {
+                matches!(Format::from_path(path), Ok(Format::Png | Format::Exr))
+            }
             _ => false,
         };
         #[cfg(feature = "html")]

@@ -68,6 +68,13 @@ pub(crate) enum Target {
     Page(PathBuf),
 }
 
+impl Target {
+    /// Whether it is a GLB.
+    pub(crate) fn is_glb(&self) -> bool {
+        matches!(self, Self::File(path) if Format::from_path(path).ok() == Some(Format::Glb))
+    }
+}
+
 /// How finely, with what, on how many threads.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Work {
@@ -271,7 +278,12 @@ pub(crate) fn read(args: &ReadArgs) -> Result<Read, Failure> {
         SidesArg::Both => (SidesRule::Both, Exchange::OneSided),
         SidesArg::Paired => (SidesRule::Front, Exchange::Paired),
     };
-    let options = scene_import::Options { tri_light: args.light, tri_reflect: args.reflect, sides };
+    let options = scene_import::Options {
+        tri_light: args.light,
+        tri_reflect: args.reflect,
+        sides,
+        keep_document: false,
+    };
     Ok(Read { options, exchange })
 }
 

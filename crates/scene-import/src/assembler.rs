@@ -183,6 +183,6 @@ impl<'a> Assembler<'a> {
         // A stable sort keeps the order in which one triangle's warnings were found.
         diagnostics.sort_by_key(|d| d.triangle);
         let summary = Summary::of(&scene, format);
-        Imported { scene, diagnostics, summary }
+        Imported { scene, diagnostics, summary, document: None }
     }
 }

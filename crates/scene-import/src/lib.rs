@@ -10,6 +10,7 @@ mod error;
 mod gltf;
 mod imported;
 mod lint;
+mod lit;
 #[cfg(feature = "obj")]
 mod obj;
 mod open;
@@ -25,6 +26,7 @@ mod vs3;
 pub use diagnostic::{Diagnostic, DiagnosticKind};
 pub use error::{Error, ErrorKind};
 pub use imported::{Format, Imported, Summary};
+pub use lit::{Lit, open_lit};
 pub use open::{open, open_bytes};
 pub use options::{Options, SidesRule};
 pub use tri_records::tri_records;

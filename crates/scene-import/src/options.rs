@@ -11,11 +11,14 @@ pub struct Options {
     pub tri_reflect: f64,
     /// Which sides of the surfaces take part.
     pub sides: SidesRule,
+    /// Whether the scene's glTF document is handed out beside it, as
+    /// [`Imported::document`](crate::Imported::document).
+    pub keep_document: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { tri_light: 1.0, tri_reflect: 0.5, sides: SidesRule::Scene }
+        Self { tri_light: 1.0, tri_reflect: 0.5, sides: SidesRule::Scene, keep_document: false }
     }
 }
 

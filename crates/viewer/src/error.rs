@@ -1,4 +1,4 @@
-//! Why a scene cannot be shown, or a file of ours cannot be read: one line.
+//! Why a scene cannot be shown: one line.
 
 use std::fmt;
 

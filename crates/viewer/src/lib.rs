@@ -3,12 +3,10 @@
 
 mod error;
 mod frame;
-mod lit;
 mod page;
 mod shown;
 
 pub use error::Error;
 pub use frame::frame;
-pub use lit::{Lit, read_glb};
 pub use page::{Page, write_live};
 pub use shown::{Means, Shown};

@@ -3,6 +3,7 @@
 //! The same checks run as tests of this crate, so nobody has to remember the command.
 
 mod edges;
+mod formats;
 mod links;
 mod manifest;
 mod sources;
@@ -29,6 +30,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
             _ => {}
         }
     }
+    complaints.extend(formats::check(root));
     for folder in members(root).map_err(|e| format!("{}: {e}", root.display()))? {
         let path = folder.join("Cargo.toml");
         let name = path.strip_prefix(root).unwrap_or(&path).display().to_string();
@@ -40,6 +42,12 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
         }
     }
     if complaints.is_empty() { Ok(()) } else { Err(complaints.join("\n")) }
+}
+
+/// What a manifest depends on, by name, for tests too.
+#[cfg(test)]
+pub(crate) fn dependencies_of(manifest: &str) -> Vec<String> {
+    manifest::dependencies(manifest).into_iter().map(|dependency| dependency.name).collect()
 }
 
 /// The folders of the workspace's members: each of crates/, and xtask.

@@ -31,7 +31,7 @@ fn lines(all: &[(bool, &str)]) -> String {
 
 /// Below the flags of `solve`.
 pub(super) fn solve() -> String {
-    let (glb, png) = (cfg!(feature = "gltf"), cfg!(feature = "png"));
+    let (glb, png, exr) = (cfg!(feature = "gltf"), cfg!(feature = "png"), cfg!(feature = "exr"));
     let checkpoint = cfg!(feature = "checkpoint");
     let html = cfg!(feature = "html");
     let solve = lines(&[
@@ -69,7 +69,9 @@ pub(super) fn solve() -> String {
         (true, "  .tri  the elements, exitance as colours 0-255"),
         (true, "  .ply  elements with float exitance"),
         (glb, "  .glb  vertex colours and linear _RADIOSITY"),
+        (true, "  .vtu  the elements with light and surface, for ParaView"),
         (png, "  .png  a picture"),
+        (exr, "  .exr  a picture in linear, unclamped exitance"),
         (html, "  .html  a page to walk about in, with the report; needs no network"),
         (true, "  .probe.csv  exitance at the places of --probe"),
         (true, ""),
@@ -98,6 +100,7 @@ mod tests {
         for (word, on) in [
             ("glb", cfg!(feature = "gltf")),
             ("png", cfg!(feature = "png")),
+            ("exr", cfg!(feature = "exr")),
             ("checkpoint", cfg!(feature = "checkpoint")),
             ("html", cfg!(feature = "html")),
         ] {

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use output::Format;
@@ -86,12 +87,17 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         files::check(path)?;
     }
     let clock = Instant::now();
-    let (file, imported) = open(settings.scene.as_deref(), &settings.read)?;
+    let mut read = settings.read;
+    // A lit GLB is the scene's own document, where it has one.
+    read.options.keep_document = settings.outputs.iter().any(Target::is_glb);
+    let (file, mut imported) = open(settings.scene.as_deref(), &read)?;
     check_factors(&file, &imported, &settings.read)?;
     let read_seconds = clock.elapsed().as_secs_f64();
     say(&format!("{file}: {}", imported.summary));
     screen::diagnostics(&imported.diagnostics);
+    let document = keep_document(&file, &mut imported)?;
     let options = settings::output_options(&settings.picture, &imported.scene)?;
+    let options = output::Options { document, ..options };
     check_paired(&imported.scene, &settings.read)?;
 
     let places = match &settings.probe {
@@ -209,6 +215,23 @@ pub(crate) fn open(path: Option<&Path>, read: &Read) -> Result<(String, Imported
         Some(path) => Ok((path.display().to_string(), scene_import::open(path, &read.options)?)),
         None => Ok((bundled::NAME.to_owned(), bundled::open(&read.options)?)),
     }
+}
+
+/// The scene's glTF document, if light can be put into it: better known now than at the end.
+#[cfg(feature = "gltf")]
+fn keep_document(
+    file: &str,
+    imported: &mut Imported,
+) -> Result<Option<Arc<scene::Document>>, Failure> {
+    let Some(document) = imported.document.take() else { return Ok(None) };
+    output::check_document(&document).map_err(|error| error.at(file))?;
+    Ok(Some(Arc::new(document)))
+}
+
+/// Nothing, as this build neither reads glTF nor writes it.
+#[cfg(not(feature = "gltf"))]
+fn keep_document(_: &str, _: &mut Imported) -> Result<Option<Arc<scene::Document>>, Failure> {
+    Ok(None)
 }
 
 /// Refuses factors that only .tri files know, for any other scene.

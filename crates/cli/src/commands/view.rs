@@ -9,7 +9,7 @@ use crate::args::ViewArgs;
 use crate::failure::Failure;
 use crate::page;
 use crate::report::SCHEMA;
-use crate::screen::{count, say};
+use crate::screen::{self, count, say};
 use crate::{files, settings};
 
 /// Reads the light, and the report if there is one, and writes the page.
@@ -25,8 +25,8 @@ pub(crate) fn run(args: &ViewArgs) -> Result<(), Failure> {
         files::check_apart(Some(report), &[output])?;
     }
     files::check(output)?;
-    let lit = viewer::read_glb(&read(solution)?)
-        .map_err(|e| Failure::Failed(format!("{}: {e}", solution.display())))?;
+    let lit = scene_import::open_lit(solution)?;
+    screen::diagnostics(&lit.diagnostics);
     let report = args.report.as_deref().map(read_report).transpose()?.unwrap_or_default();
     let elements = lit.solution.elements.len();
     say(&format!("{}: {} lit elements", solution.display(), count(elements as u64)));

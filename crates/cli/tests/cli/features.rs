@@ -30,7 +30,12 @@ fn what_is_left_out_is_named_and_the_rest_works() {
         ),
         ("obj", cfg!(feature = "obj"), &["solve", "a.obj", "-o", "a.csv"]),
         ("png", cfg!(feature = "png"), &["solve", "box.tri", "--elements", "20", "-o", "a.png"]),
-        ("png", cfg!(feature = "png"), &["solve", "box.tri", "--size", "9x9", "-o", "-"]),
+        (
+            "png",
+            cfg!(any(feature = "exr", feature = "png")),
+            &["solve", "box.tri", "--size", "9x9", "-o", "-"],
+        ),
+        ("exr", cfg!(feature = "exr"), &["solve", "box.tri", "--elements", "20", "-o", "a.exr"]),
         ("verify", cfg!(feature = "verify"), &["verify", "--only", "no such"]),
     ];
     for (feature, on, args) in cases {
@@ -42,8 +47,20 @@ fn what_is_left_out_is_named_and_the_rest_works() {
             assert_eq!((run.code(), said.lines().count()), (2, 1), "{args:?}: {said}");
         }
     }
-    let plain =
-        ["solve", "box.tri", "--elements", "20", "-o", "b.csv", "-o", "b.ply", "-o", "b.tri"];
+    let plain = [
+        "solve",
+        "box.tri",
+        "--elements",
+        "20",
+        "-o",
+        "b.csv",
+        "-o",
+        "b.ply",
+        "-o",
+        "b.tri",
+        "-o",
+        "b.vtu",
+    ];
     assert_eq!(radiosity(folder.path(), &plain).code(), 0);
 }
 

@@ -108,7 +108,11 @@ fn a_lit_file_is_viewed_with_the_same_light() {
 fn what_cannot_be_viewed_is_refused_in_one_line() {
     let (folder, _) = folder_with("box.tri", box_tri().as_bytes());
     let cases: &[(&[&str], i32, &str)] = &[
-        (&["view", "box.tri", "-o", "a.html"], 1, "box.tri: expected a GLB, version 2"),
+        (
+            &["view", "box.tri", "-o", "a.html"],
+            1,
+            "box.tri: expected a .glb that `radiosity solve` wrote",
+        ),
         (&["view", "none.glb", "-o", "a.html"], 1, "none.glb: "),
         (&["view", "box.tri", "-o", "a.htm"], 2, "a.htm: expected a name that ends in .html"),
         (&["view", "a.html", "-o", "a.html"], 2, "a.html: is what is read"),

@@ -6,21 +6,26 @@
 mod accessor;
 mod budget;
 mod document;
+mod kept;
 mod layer;
+mod light;
 mod primitive;
 mod range;
+mod restore;
 mod stated;
 mod surface;
 mod uri;
 mod walk;
 
-use scene::{Camera, TriangleId};
+use scene::{Camera, Face, TriangleId};
 
 use crate::assembler::Assembler;
 use crate::open::Source;
-use crate::{DiagnosticKind, Error, Format, Imported, Options};
+use crate::{DiagnosticKind, Error, Format, Imported, Lit, Options, SidesRule};
 use budget::Budget;
-use document::Parsed;
+use document::{Parsed, Wanted};
+use kept::Keeper;
+use light::Light;
 use stated::Stated;
 use surface::Surfaces;
 use walk::Placed;
@@ -50,7 +55,32 @@ pub(crate) fn read(
     format: Format,
     options: &Options,
 ) -> Result<Imported, Error> {
-    let parsed = Parsed::new(source)?;
+    let parsed = Parsed::new(source, Wanted { text: options.keep_document, light: false })?;
+    read_parsed(source, parsed, format, options, None)
+}
+
+/// Reads the elements of a file that this project has lit, each from its own side, and their light.
+pub(crate) fn read_lit(source: &Source<'_>) -> Result<Lit, Error> {
+    let parsed = Parsed::new(source, Wanted { text: false, light: true })?;
+    let exposure = light::exposure(&parsed, source.name)?;
+    let mut light = Light::default();
+    let options = Options { sides: SidesRule::Front, ..Options::default() };
+    let Imported { scene, mut diagnostics, .. } =
+        read_parsed(source, parsed, Format::Glb, &options, Some(&mut light))?;
+    // What is odd about single triangles was so before they were lit, or comes of their being cut.
+    diagnostics.retain(|diagnostic| diagnostic.triangle.is_none());
+    let solution = light.solution(&scene, source.name)?;
+    Ok(Lit { scene, solution, exposure, diagnostics })
+}
+
+/// Reads a parsed document; the primitives of backs only where their light is wanted.
+fn read_parsed(
+    source: &Source<'_>,
+    parsed: Parsed,
+    format: Format,
+    options: &Options,
+    mut light: Option<&mut Light>,
+) -> Result<Imported, Error> {
     let mut assembler = Assembler::new(source.name, options.sides);
     let stated = Stated::new(&parsed.document, source.name, &mut assembler)?;
     range::check(source.name, parsed.document.as_json(), &stated)?;
@@ -61,6 +91,7 @@ pub(crate) fn read(
     );
     let mut surfaces = Surfaces::new(source, &parsed, &stated);
     let mut runs = Vec::new();
+    let mut keeper = Keeper::new(options.keep_document);
     for placed in walk::walk(&parsed.document, &stated, source.name)? {
         let Placed { node, world } = &placed;
         let path = format!("nodes[{}]", node.index());
@@ -85,13 +116,15 @@ pub(crate) fn read(
             None => assembler.new_group(&format!("node {}", node.index())),
         };
         for primitive in mesh.primitives() {
-            if stated.is_back(mesh.index(), primitive.index()) {
+            let is_back = stated.is_back(mesh.index(), primitive.index());
+            if is_back && light.is_none() {
                 continue;
             }
             let path = format!("{path}.mesh[{}].primitives[{}]", mesh.index(), primitive.index());
             runs.push(Run { first: assembler.triangle_count(), path: path.clone() });
             let place = primitive::Place { path: &path, mesh: mesh.index(), world: *world, group };
-            primitive::add(
+            let first = TriangleId::from(assembler.triangle_count());
+            let added = primitive::add(
                 &primitive,
                 &place,
                 &parsed,
@@ -99,9 +132,17 @@ pub(crate) fn read(
                 &mut budget,
                 &mut assembler,
             )?;
+            if let Some(light) = light.as_deref_mut() {
+                let face = if is_back { Face::Back } else { Face::Front };
+                light.add(&primitive, face, first, &added, &parsed, &mut budget)?;
+            }
+            keeper.add([node.index(), mesh.index(), primitive.index()], first, &added);
         }
     }
-    Ok(assembler.finish(format, |id| place(&runs, id)))
+    drop(surfaces);
+    let document = keeper.finish(parsed, source, &mut assembler);
+    let imported = assembler.finish(format, |id| place(&runs, id));
+    Ok(Imported { document, ..imported })
 }
 
 fn place(runs: &[Run], id: TriangleId) -> String {

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "gltf")]
 mod appearance;
+#[cfg(feature = "gltf")]
+mod document;
 mod errors;
 #[cfg(feature = "gltf")]
 mod extras;

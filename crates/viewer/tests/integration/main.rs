@@ -7,6 +7,5 @@ mod browser;
 mod built;
 mod common;
 mod escape;
-mod glb;
 mod look;
 mod point;
