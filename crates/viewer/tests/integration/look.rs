@@ -110,6 +110,17 @@ fn controls_change_what_is_seen() {
     let middle = light.sum() / 3.0;
     shows(&false_colour(0.0, 2.0 * middle), [0x21, 0x91, 0x8c], "in its middle");
     assert!(browser.text("#legend-title").contains("W/m²"));
+    // Each element is more than a hundredth of the area, so the range that fits ends at the
+    // darkest and the brightest; it is shown in three digits.
+    browser.value("document.querySelector('[value=log]').click()");
+    let (_, solution) = scene();
+    let means: Vec<f64> = solution.elements.iter().map(|e| e.exitance.sum() / 3.0).collect();
+    let [least, most] = [f64::min, f64::max].map(|of| means.iter().copied().reduce(of).unwrap());
+    for (id, expected) in [("#low", least), ("#high", most)] {
+        let shown = browser.number(id);
+        assert!((shown - expected).abs() <= 5e-3 * expected, "{id}: {shown}, expected {expected}");
+    }
+    assert!(browser.text("#legend-title").ends_with("logarithmic"));
     assert_eq!(browser.complaints(), Vec::<String>::new());
 }
 

@@ -80,9 +80,4 @@ export class Light {
   group(element) {
     return this.groups[this.triangleGroups[this.triangles[element]]];
   }
-
-  /** Whether the element shines by itself. */
-  emits(element) {
-    return this.material(element).emittance.some((e) => e > 0);
-  }
 }
