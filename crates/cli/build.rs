@@ -3,8 +3,6 @@
 //! The links in `scenes/`, which a package holds as files, are not followed in a checkout: some
 //! systems have none.
 
-#![expect(clippy::print_stdout, reason = "so a build script speaks to cargo")]
-
 use std::env;
 use std::path::Path;
 

@@ -11,7 +11,7 @@ use crate::ci;
 /// Files that each package must hold.
 const NEEDED: [&str; 4] = ["Cargo.toml", "LICENSE-APACHE", "LICENSE-MIT", "README.md"];
 
-/// Bytes of a package that are no mistake yet; the largest, with the bundled scenes, has a third.
+/// Bytes of a package that are no mistake yet; the largest, with the bundled scenes, has a sixth.
 /// crates.io takes ten times as much.
 const MOST_BYTES: u64 = 1 << 20;
 

@@ -296,9 +296,9 @@ fn crc(bytes: &[u8]) -> u32 {
 fn jpeg(side: u16) -> Vec<u8> {
     let mut jpeg = Vec::new();
     let encoder = image::codecs::jpeg::JpegEncoder::new(&mut jpeg);
-    image::RgbImage::new(8, 8).write_with_encoder(encoder).unwrap();
+    image::RgbImage::new(8, 8).write_with_encoder(encoder).expect("a vector takes everything");
     // Start of a baseline frame: marker, length, bits, height, width.
-    let frame = jpeg.windows(2).position(|bytes| bytes == [0xff, 0xc0]).unwrap();
+    let frame = jpeg.windows(2).position(|bytes| bytes == [0xff, 0xc0]).expect("it is baseline");
     jpeg[frame + 5..frame + 9].copy_from_slice(&[side.to_be_bytes(); 2].concat());
     jpeg
 }
@@ -313,6 +313,6 @@ fn one_colour(side: u32) -> Vec<u8> {
         image::codecs::png::CompressionType::Best,
         image::codecs::png::FilterType::NoFilter,
     );
-    picture.write_with_encoder(encoder).unwrap();
+    picture.write_with_encoder(encoder).expect("a vector takes everything");
     png
 }
