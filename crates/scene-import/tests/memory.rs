@@ -256,6 +256,8 @@ fn gltf() -> Vec<(&'static str, &'static str, Vec<u8>)> {
             textured(&header)
         }),
         ("headers of 1000 × 1000", "a.gltf", textured(&png_header(1000, 1000))),
+        ("a JPEG header of 65 500 × 65 500", "a.gltf", textured(&jpeg(65_500))),
+        ("JPEG headers of 2100 × 2100", "a.gltf", textured(&jpeg(2100))),
         ("one colour, 4096 × 4096", "a.gltf", textured(&one_colour(4096))),
     ]
 }
@@ -289,6 +291,18 @@ fn crc(bytes: &[u8]) -> u32 {
     })
 }
 
+/// A JPEG of 8 × 8 texels that says it is larger.
+#[cfg(feature = "gltf")]
+fn jpeg(side: u16) -> Vec<u8> {
+    let mut jpeg = Vec::new();
+    let encoder = image::codecs::jpeg::JpegEncoder::new(&mut jpeg);
+    image::RgbImage::new(8, 8).write_with_encoder(encoder).expect("a vector takes everything");
+    // Start of a baseline frame: marker, length, bits, height, width.
+    let frame = jpeg.windows(2).position(|bytes| bytes == [0xff, 0xc0]).expect("it is baseline");
+    jpeg[frame + 5..frame + 9].copy_from_slice(&[side.to_be_bytes(); 2].concat());
+    jpeg
+}
+
 /// A whole PNG of one colour: the most texels a byte can be.
 #[cfg(feature = "gltf")]
 fn one_colour(side: u32) -> Vec<u8> {
@@ -299,6 +313,6 @@ fn one_colour(side: u32) -> Vec<u8> {
         image::codecs::png::CompressionType::Best,
         image::codecs::png::FilterType::NoFilter,
     );
-    picture.write_with_encoder(encoder).expect("memory takes every byte");
+    picture.write_with_encoder(encoder).expect("a vector takes everything");
     png
 }
