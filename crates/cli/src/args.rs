@@ -4,9 +4,12 @@ mod checkpoint;
 #[cfg(feature = "form-factors")]
 mod form_factors;
 mod help;
+#[cfg(feature = "manual")]
+mod manual;
 mod picture;
 mod shooting;
 mod snapshot;
+mod terminal;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -17,9 +20,12 @@ pub(crate) use checkpoint::CheckpointArgs;
 #[cfg(feature = "form-factors")]
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 pub(crate) use help::CONVERTED;
+#[cfg(feature = "manual")]
+pub(crate) use manual::{CompletionsArgs, ManArgs};
 pub(crate) use picture::PictureArgs;
 pub(crate) use shooting::{ShootingArgs, SplitArg};
 pub(crate) use snapshot::Every;
+pub(crate) use terminal::{ColorArg, LogArg, TerminalArgs};
 
 /// Turns a triangle scene into its diffuse global illumination.
 #[cfg_attr(
@@ -32,6 +38,9 @@ pub(crate) use snapshot::Every;
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
+
+    #[command(flatten)]
+    pub(crate) terminal: TerminalArgs,
 }
 
 #[derive(Debug, Subcommand)]
@@ -51,6 +60,12 @@ pub(crate) enum Command {
     /// Check known answers on this machine: closed forms, known solutions, the bundled scenes
     #[cfg(feature = "verify")]
     Verify(VerifyArgs),
+    /// Print what a shell needs to complete the command line
+    #[cfg(feature = "manual")]
+    Completions(CompletionsArgs),
+    /// Write manual pages
+    #[cfg(feature = "manual")]
+    Man(ManArgs),
 }
 
 /// How a scene file is read.
@@ -133,6 +148,11 @@ pub(crate) struct SolveArgs {
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Vec<PathBuf>,
 
+    /// Take flags from this file, each by its long name; what is typed wins (docs/config.md)
+    #[cfg(feature = "config")]
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) config: Option<PathBuf>,
+
     /// Write everything measured as JSON (docs/report.md says what each field is)
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
@@ -149,7 +169,7 @@ pub(crate) struct SolveArgs {
     pub(crate) max_time: Option<Duration>,
 
     /// Refine to no more than this many elements
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", conflicts_with_all = ["elements", "converge"])]
     pub(crate) max_elements: Option<usize>,
 
     /// Take no more memory than this, as 500MB or 4GiB: refine to fewer elements, or make fewer
@@ -170,7 +190,7 @@ pub(crate) struct SolveArgs {
 
     /// With --elements or --converge: solve that one mesh alone. Saves about a sixth of the
     /// time; the report then states no error
-    #[arg(long)]
+    #[arg(long, conflicts_with = "error")]
     pub(crate) no_statement: bool,
 
     /// Places to report the exitance at: a CSV with the columns triangle,u,v (input triangle

@@ -15,7 +15,8 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::memory::{self, Budget};
 use crate::prepared::Prepared;
-use crate::screen;
+use crate::progress::{Foreseen, Progress};
+use crate::screen::{self, Event};
 use crate::settings::{MOST_ELEMENTS, Read, Solve};
 use crate::snapshot::{Snapshot, Snapshots};
 use crate::stages::{StageSeconds, Stages};
@@ -67,6 +68,7 @@ pub(crate) fn solve(
     settings: &Solve,
     probes: &[Probe],
     snapshots: Option<Snapshots<'_>>,
+    progress: &mut Progress,
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::listen();
     let exchange = settings.read.exchange;
@@ -90,8 +92,18 @@ pub(crate) fn solve(
         None => usize::MAX,
     };
     let most = settings.limits.elements.unwrap_or(MOST_ELEMENTS).min(MOST_ELEMENTS);
+    progress.solve(Foreseen {
+        asked,
+        converge: settings.goal.converge(),
+        planned: prepared.plan.planned,
+        threads: prepared.threads(),
+        triangles: scene.triangles().len(),
+        most_elements: most.min(fitting),
+        most_seconds: settings.limits.time.map(|most| most.as_secs_f64()),
+    });
     let mut watch = Watch {
         clock,
+        progress,
         stages: Stages::default(),
         most: settings.limits.time,
         interrupt: interrupt.clone(),
@@ -179,6 +191,7 @@ fn fitting(budget: &Budget, asked: Asked) -> Result<usize, Failure> {
 /// checkpoints.
 struct Watch<'a> {
     clock: Instant,
+    progress: &'a mut Progress,
     stages: Stages,
     most: Option<Duration>,
     interrupt: Interrupt,
@@ -205,9 +218,11 @@ impl Watch<'_> {
 impl Observer for Watch<'_> {
     fn stage(&mut self, stage: Stage) {
         self.stages.begin(stage);
+        self.progress.stage(stage);
     }
 
     fn step(&mut self, report: &StepReport) -> Control {
+        self.progress.step(report);
         let last = self.curve[self.step..].last().map(|point| point.work.unshot);
         if last.is_none_or(|unshot| report.unshot <= unshot * CURVE_STEP) {
             let seconds = self.clock.elapsed().as_secs_f64();
@@ -224,9 +239,9 @@ impl Observer for Watch<'_> {
     }
 
     fn elements(&mut self, planned: usize) -> usize {
-        let Some(budget) = &self.budget else { return planned };
-        let allowed = budget.next_level(self.kept);
+        let allowed = self.budget.as_ref().map_or(planned, |budget| budget.next_level(self.kept));
         self.coarsened |= allowed < planned;
+        self.progress.planned(planned.min(allowed));
         allowed
     }
 
@@ -258,8 +273,10 @@ impl Observer for Watch<'_> {
         self.curve.push(CurvePoint { seconds, work: report.work, level });
         self.step = self.curve.len();
         self.kept = report.elements;
-        if self.refining {
-            screen::level(report, seconds);
+        let number = self.progress.level(report);
+        match self.refining {
+            true => screen::level(number, report, seconds),
+            false => screen::log(|| Event::level(number, report)),
         }
     }
 }

@@ -15,8 +15,9 @@ use crate::failure::Failure;
 use crate::memory::Budget;
 use crate::pipeline::{self, INTERRUPT, Solved};
 use crate::prepared::{self, Prepared};
+use crate::progress::Progress;
 use crate::report::{Report, Run};
-use crate::screen::{self, count, percent, rough, say, seconds};
+use crate::screen::{self, Event, count, key, percent, rough, say, seconds, tell};
 use crate::settings::{self, Goal, Read, Solve, Target, Work};
 use crate::snapshot::Snapshots;
 use crate::{bundled, files};
@@ -79,11 +80,15 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     for path in paths {
         files::check(path)?;
     }
+    let read = [&settings.scene, &settings.probe, &settings.keeping.resume];
+    read.into_iter().flatten().try_for_each(|path| files::check_read(path))?;
+    let mut progress = Progress::new(settings.goal);
+    progress.phase("reading");
     let clock = Instant::now();
     let (file, imported) = open(settings.scene.as_deref(), &settings.read)?;
     check_factors(&file, &imported, &settings.read)?;
     let read_seconds = clock.elapsed().as_secs_f64();
-    say(&format!("{file}: {}", imported.summary));
+    tell(|| Event::scene(&file, &imported), &format!("{file}: {}", imported.summary));
     screen::diagnostics(&imported.diagnostics);
     let options = settings::output_options(&settings.picture, &imported.scene)?;
     check_paired(&imported.scene, &settings.read)?;
@@ -103,10 +108,14 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         &settings.read,
         goal,
         settings.shooting.sharing,
+        |phase| progress.phase(phase),
     )?;
+    screen::log(|| Event::plan(&prepared.plan));
     let probes: Vec<Probe> = places.iter().map(probe).collect();
     let snapshots = Snapshots::of(settings, &imported.scene, &options);
-    let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots)?;
+    let solved =
+        pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots, &mut progress)?;
+    progress.phase("writing");
     if settings.shooting.split == radiosity_core::Split::Centroid {
         screen::warning(
             "--split centroid: no edge is ever split, so meshes may agree on a wrong answer; the \
@@ -119,6 +128,9 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let clock = Instant::now();
     let mut outputs = Vec::new();
     for target in &settings.outputs {
+        if *target == Target::Stdout {
+            progress.clear();
+        }
         outputs.push(write(target, &imported.scene, &solved, &places, &options)?);
     }
     let output_seconds = clock.elapsed().as_secs_f64();
@@ -136,15 +148,24 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         Report::of(run).write(path)?;
         outputs.push(path.display().to_string());
     }
-    say(&format!(
+    progress.clear();
+    let times = format!(
         "time: read {}, plan {}, occluder {}, solve {}, output {}",
         seconds(read_seconds),
         seconds(prepared.plan_seconds),
         seconds(prepared.occluder_seconds),
         seconds(solved.seconds),
         seconds(output_seconds)
-    ));
-    say(&format!("written: {}", outputs.join(", ")));
+    );
+    let event = || Event::Time {
+        read_seconds,
+        plan_seconds: prepared.plan_seconds,
+        occluder_seconds: prepared.occluder_seconds,
+        solve_seconds: solved.seconds,
+        output_seconds,
+    };
+    tell(event, &times);
+    tell(|| Event::Written { files: &outputs }, &format!("written: {}", outputs.join(", ")));
     Ok(())
 }
 
@@ -190,6 +211,7 @@ pub(crate) fn warn_of_coarseness(scene: &Scene, mesh: &Mesh) {
 
 /// Opens a file, or the bundled scene.
 pub(crate) fn open(path: Option<&Path>, read: &Read) -> Result<(String, Imported), Failure> {
+    path.map(files::check_read).transpose()?;
     match path {
         Some(path) => Ok((path.display().to_string(), scene_import::open(path, &read.options)?)),
         None => Ok((bundled::NAME.to_owned(), bundled::open(&read.options)?)),
@@ -277,7 +299,7 @@ fn say_limit(solved: &Solved, goal: Goal) {
     let unshot = percent(refined.work.unshot);
     let elements = count(refined.mesh.elements().len() as u64);
     let stated = refined.statement.is_some_and(|s| s.triangles.e1.total().is_finite());
-    screen::warning(&match goal {
+    let text = match goal {
         _ if refined.work.shots == 0 => {
             format!("{what} before the first step was done: what is written is the emittance alone")
         }
@@ -291,21 +313,24 @@ fn say_limit(solved: &Solved, goal: Goal) {
         Goal::Mesh { .. } => {
             format!("{what} with {elements} elements and {unshot} of the emitted power unshot")
         }
-    });
+    };
+    screen::limit(limit, &text);
 }
 
 fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
     let refined = &solved.refined;
     let (mesh, work, ledger) = (&refined.mesh, &refined.total_work, &refined.ledger);
-    say(&format!(
+    let (occluders, threads) = (prepared.occluder_name, prepared.threads());
+    let line = format!(
         "{} elements in {} patches, {} receiver points; occluders: {}; {} {}",
         count(mesh.elements().len() as u64),
         count(mesh.patches().len() as u64),
         count(mesh.points().len() as u64),
-        prepared.occluder_name,
-        prepared.threads(),
-        if prepared.threads() == 1 { "thread" } else { "threads" },
-    ));
+        occluders,
+        threads,
+        if threads == 1 { "thread" } else { "threads" },
+    );
+    tell(|| Event::mesh(refined, occluders, threads), &line);
     if mesh.covered() > 0 {
         screen::warning(&format!(
             "{} triangles lie wholly or in part under earlier ones in their plane: what is \
@@ -317,21 +342,23 @@ fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
         screen::warning("nothing emits: the scene stays dark");
         return;
     }
-    say(&format!(
+    let line = format!(
         "{} shots, {} segments, {} form factors; {} of the emitted power unshot{}",
         count(work.shots),
         count(work.rays),
         count(work.form_factors),
-        percent(work.unshot),
+        key(&percent(work.unshot)),
         if refined.corrected { "; ambient corrections" } else { "" }
-    ));
+    );
+    tell(|| Event::work(refined), &line);
     say_plan(&prepared.plan, refined);
     screen::statement(refined.statement.as_ref(), refined.reached);
     say_limit(solved, settings.goal);
     if let Some([least, most]) = refined.closed_rows {
-        say(&format!("rows: form factors summed to {least:.6} to {most:.6}, closed to 1"));
+        let line = format!("rows: form factors summed to {least:.6} to {most:.6}, closed to 1");
+        tell(|| Event::Rows { least, most }, &line);
     }
-    say(&format!(
+    let line = format!(
         "energy: absorbed {}, escaped {} (form factors: {}), wrong side {}, unshot {}; sum off by {:.0e}",
         percent(ledger.share(ledger.absorbed)),
         percent(ledger.share(ledger.escaped)),
@@ -339,7 +366,8 @@ fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
         percent(ledger.share(ledger.wrong_side)),
         percent(ledger.share(ledger.unshot)),
         ledger.imbalance()
-    ));
+    );
+    tell(|| Event::energy(ledger), &line);
     let defect = ledger.share(ledger.form_factor_defect);
     if defect.abs() > DEFECT_WORTH_SAYING {
         screen::warning(&format!(

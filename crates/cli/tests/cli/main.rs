@@ -2,9 +2,17 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
 
+#[cfg(feature = "config")]
+mod config;
 mod features;
+mod log;
+#[cfg(feature = "manual")]
+mod manual;
+mod mistakes;
 mod plan;
 mod solve;
 mod statement;
 mod stopping;
 mod support;
+#[cfg(unix)]
+mod terminal;
