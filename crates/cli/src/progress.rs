@@ -186,18 +186,25 @@ impl Progress {
         let Some(bar) = &self.bar else { return };
         let elapsed = (now - self.clock).as_secs_f64();
         let left = self.left(now);
-        let done = left.map_or(0.0, |left| elapsed / (elapsed + left).max(f64::MIN_POSITIVE));
+        let done = match left {
+            Some(left) => elapsed / (elapsed + left).max(f64::MIN_POSITIVE),
+            // All but the outputs, or nothing.
+            None => f64::from(u8::from(self.levels > 0)),
+        };
         bar.show(done, &self.text(left));
     }
 
     /// What the bar says.
     fn text(&self, left: Option<f64>) -> String {
-        let mut parts = vec![match self.elements {
+        // What does not fit is cut off: what matters most comes first.
+        let mut parts: Vec<String> =
+            left.map(|left| format!("about {} left", time(left))).into_iter().collect();
+        parts.push(match self.elements {
             Some(n) => {
                 format!("level {}, {} elements: {}", self.levels + 1, count(n as u64), self.phase)
             }
             None => self.phase.to_owned(),
-        }];
+        });
         match (self.goal, self.error) {
             (Goal::Error(target), Some(error)) => {
                 parts.push(format!("error {} of {}", percent(error), percent(target)));
@@ -215,9 +222,6 @@ impl Progress {
         }
         if self.rate.per_second > 0.0 {
             parts.push(format!("{} segments/s", amount(self.rate.per_second)));
-        }
-        if let Some(left) = left {
-            parts.push(format!("about {} left", time(left)));
         }
         parts.join(", ")
     }

@@ -39,7 +39,7 @@ impl Bars {
     /// A bar of its own, at the bottom.
     pub(crate) fn bar(&self) -> Bar {
         let bar = self.all.add(ProgressBar::new(WHOLE));
-        if let Ok(style) = ProgressStyle::with_template("{spinner} [{bar:20}] {msg}") {
+        if let Ok(style) = ProgressStyle::with_template("{spinner} [{bar:20}] {wide_msg}") {
             bar.set_style(style.progress_chars("=> "));
         }
         if self.shown {
