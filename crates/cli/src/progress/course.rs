@@ -19,9 +19,10 @@ const STATEMENT_GROWTH: f64 = 0.6;
 /// Measured growth of the shooting is believed within these.
 const GROWTHS: (f64, f64) = (0.5, 1.3);
 
-/// Seconds of a statement for each of shooting, where none was made yet, with [`JUDGED`] elements.
-const STATEMENT_SHARE: f64 = 0.6;
-const STATEMENT_FALL: f64 = 0.2;
+/// Form factors that take as long as the statement of a mesh of so many elements, where none was made yet:
+/// cornell, blocks, room, gallery and hall lie within a factor of two.
+const STATEMENT: f64 = 1.2e6;
+const STATEMENT_ELEMENTS: f64 = 1500.0;
 
 /// Meshes of fewer elements get no second estimate of their form factors.
 const JUDGED: f64 = 1000.0;
@@ -72,6 +73,8 @@ struct Done {
     elements: f64,
     shooting: f64,
     statement: f64,
+    /// Seconds of a form factor.
+    each: f64,
     shape: Shape,
 }
 
@@ -90,6 +93,13 @@ struct Last {
     form_factors: f64,
     /// Since the level began.
     seconds: f64,
+}
+
+impl Last {
+    /// Seconds of a form factor.
+    fn each(&self) -> f64 {
+        self.seconds / self.form_factors.max(1.0)
+    }
 }
 
 impl Course {
@@ -133,6 +143,7 @@ impl Course {
             elements: report.elements.max(1) as f64,
             shooting: last.seconds,
             statement: (seconds - began - last.seconds).max(0.0),
+            each: last.each(),
             shape,
         });
     }
@@ -143,7 +154,7 @@ impl Course {
         let shooting = self.shooting(now);
         let level = |elements: f64| {
             let shooting = shooting * (elements / now.elements).powf(self.growth());
-            shooting + self.statement(elements, shooting)
+            shooting + self.statement(elements, now)
         };
         let present = level(now.elements);
         let rest = (present - (seconds - now.began)).max(LONGER * present);
@@ -165,14 +176,11 @@ impl Course {
         let foreseen = match (self.done.last(), now.last) {
             (Some(done), _) => done.shooting * (now.elements / done.elements).powf(self.growth()),
             (None, last) => {
-                let planned = &self.foreseen.planned;
-                let guess = SLOWER * planned.seconds / self.foreseen.threads.max(1) as f64;
-                let share = self.form_factors / planned.form_factors.max(1.0);
                 let last = last.filter(|last| last.form_factors > 0.0);
-                let whole = last.map_or(guess * share, |last| {
-                    self.form_factors * last.seconds / last.form_factors
-                });
-                whole * (now.elements / planned.elements.max(1.0)).powf(SHOOTING_GROWTH)
+                let whole =
+                    last.map_or_else(|| self.guess(), |last| self.form_factors * last.each());
+                let planned = self.foreseen.planned.elements.max(1.0);
+                whole * (now.elements / planned).powf(SHOOTING_GROWTH)
             }
         };
         let Some(last) = now.last else { return foreseen };
@@ -186,6 +194,13 @@ impl Course {
             return own.max(foreseen);
         }
         own.powf(weight) * foreseen.powf(1.0 - weight)
+    }
+
+    /// Seconds of the last level's shooting, by the plan alone.
+    fn guess(&self) -> f64 {
+        let Foreseen { planned, threads, .. } = &self.foreseen;
+        let share = self.form_factors / planned.form_factors.max(1.0);
+        SLOWER * share * planned.seconds / (*threads).max(1) as f64
     }
 
     /// The unshot share at which the present level's shooting is expected to end.
@@ -214,14 +229,18 @@ impl Course {
     }
 
     /// Seconds of the statement of a level.
-    fn statement(&self, elements: f64, shooting: f64) -> f64 {
+    fn statement(&self, elements: f64, now: &Now) -> f64 {
         match (self.foreseen.asked, self.done.last()) {
             (Asked::Unstated(_), _) => 0.0,
             _ if elements < JUDGED => 0.0,
             (_, Some(done)) if done.elements >= JUDGED => {
                 done.statement * (elements / done.elements).powf(STATEMENT_GROWTH)
             }
-            _ => STATEMENT_SHARE * shooting * (JUDGED / elements).powf(STATEMENT_FALL),
+            (_, done) => {
+                let each = now.last.map(|last| last.each()).or(done.map(|done| done.each));
+                let each = each.unwrap_or_else(|| self.guess() / self.form_factors.max(1.0));
+                STATEMENT * each * (elements / STATEMENT_ELEMENTS).powf(STATEMENT_GROWTH)
+            }
         }
     }
 }
