@@ -3,19 +3,21 @@
 //! Each key becomes the words that would have been typed, so that both are understood by the same
 //! code; where a word is wrong, its place in the file is said. docs/config.md describes the file.
 
-use std::any::TypeId;
+mod value;
+
 use std::collections::HashSet;
-use std::ffi::{OsStr, OsString};
+use std::ffi::OsString;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::parser::ValueSource;
-use clap::{Arg, ArgAction, ArgMatches, Command};
-use toml::de::{DeTable, DeValue};
+use clap::{Arg, ArgMatches, Command};
+use toml::de::DeTable;
 
 use super::mistake::{self, either};
 use crate::failure::Failure;
 use crate::{files, similar};
+use value::words;
 
 /// The command that has a config file.
 const COMMAND: &str = "solve";
@@ -37,16 +39,6 @@ struct Key {
     words: Vec<OsString>,
     /// Line and column, from 1.
     place: (usize, usize),
-}
-
-/// What a flag takes in the file.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Takes {
-    Switch,
-    Path,
-    Paths,
-    Text,
-    Value,
 }
 
 impl Config {
@@ -165,41 +157,6 @@ fn unknown(name: &str, command: &Command) -> String {
     )
 }
 
-/// What was typed, had it been typed.
-fn words(path: &Path, name: &str, arg: &Arg, value: &DeValue) -> Result<Vec<OsString>, String> {
-    let takes = takes(arg);
-    let one = |text: &OsStr| {
-        if arg.is_positional() {
-            return text.to_owned();
-        }
-        let mut word = OsString::from(format!("--{name}="));
-        word.push(text);
-        word
-    };
-    let file = |text: &str| one(beside(path, text).as_os_str());
-    match (takes, value) {
-        (Takes::Switch, DeValue::Boolean(on)) => {
-            Ok(if *on { vec![format!("--{name}").into()] } else { Vec::new() })
-        }
-        (Takes::Path | Takes::Paths, DeValue::String(text)) => Ok(vec![file(text)]),
-        (Takes::Paths, DeValue::Array(all)) => all
-            .iter()
-            .map(|value| match value.get_ref() {
-                DeValue::String(text) => Ok(file(text)),
-                other => Err(format!("expected file names, found {}", found(other))),
-            })
-            .collect(),
-        (Takes::Text | Takes::Value, DeValue::String(text)) => {
-            Ok(vec![one(OsStr::new(text.as_ref()))])
-        }
-        (Takes::Value, DeValue::Integer(number)) if number.radix() == 10 => {
-            Ok(vec![one(OsStr::new(number.as_str()))])
-        }
-        (Takes::Value, DeValue::Float(number)) => Ok(vec![one(OsStr::new(number.as_str()))]),
-        (takes, other) => Err(format!("expected {}, found {}", takes.text(), found(other))),
-    }
-}
-
 /// Whether the words are understood, each by itself.
 fn check(root: &Command, name: &str, words: &[OsString]) -> Result<(), String> {
     use clap::error::ErrorKind::{InvalidUtf8, InvalidValue, ValueValidation};
@@ -215,55 +172,6 @@ fn check(root: &Command, name: &str, words: &[OsString]) -> Result<(), String> {
     }
 }
 
-fn takes(arg: &Arg) -> Takes {
-    let value = arg.get_value_parser().type_id();
-    match arg.get_action() {
-        ArgAction::SetTrue => Takes::Switch,
-        ArgAction::Append => Takes::Paths,
-        _ if value == TypeId::of::<PathBuf>() => Takes::Path,
-        _ if value == TypeId::of::<String>() => Takes::Text,
-        _ => Takes::Value,
-    }
-}
-
-impl Takes {
-    fn text(self) -> &'static str {
-        match self {
-            Self::Switch => "true or false",
-            Self::Path => "a file name in quotes",
-            Self::Paths => "a file name in quotes, or several as [\"a.csv\", \"b.ply\"]",
-            Self::Text => "a text in quotes",
-            Self::Value => "a number, or a text in quotes",
-        }
-    }
-}
-
-fn found(value: &DeValue) -> &'static str {
-    match value {
-        DeValue::String(_) => "a text",
-        DeValue::Integer(number) if number.radix() != 10 => "a number that is not decimal",
-        DeValue::Integer(_) | DeValue::Float(_) => "a number",
-        DeValue::Boolean(_) => "true or false",
-        DeValue::Datetime(_) => "a date",
-        DeValue::Array(_) => "a list",
-        DeValue::Table(_) => "a table",
-    }
-}
-
-/// A name in the file is one beside the file; `-` is stdout.
-fn beside(config: &Path, name: &str) -> PathBuf {
-    match config.parent() {
-        _ if name == "-" => PathBuf::from(name),
-        Some(folder) => {
-            let path = folder.join(name);
-            // No flag, whatever it begins with.
-            let flag = path.to_string_lossy().starts_with('-');
-            if flag { Path::new(".").join(path) } else { path }
-        }
-        None => PathBuf::from(name),
-    }
-}
-
 /// Line and column of a byte, from 1; columns count characters.
 fn place(text: &str, byte: usize) -> (usize, usize) {
     let before = text.get(..byte).unwrap_or(text);
@@ -275,6 +183,7 @@ fn place(text: &str, byte: usize) -> (usize, usize) {
 mod tests {
     use clap::CommandFactory;
 
+    use super::value::{Takes, takes};
     use super::*;
     use crate::args::Args;
 
