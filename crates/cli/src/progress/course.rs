@@ -31,7 +31,7 @@ const JUDGED: f64 = 1000.0;
 const SLOWER: f64 = 1.5;
 
 /// The share of a level after which its own speed says how long it takes.
-const TELLING: f64 = 0.3;
+const TELLING: f64 = 0.6;
 
 /// Work that takes longer than foreseen takes this share longer still.
 const LONGER: f64 = 0.05;
@@ -121,7 +121,14 @@ impl Course {
 
     /// A level begins, with so many elements as planned.
     pub(crate) fn planned(&mut self, elements: usize, seconds: f64) {
-        let elements = elements.max(self.foreseen.triangles).max(1) as f64;
+        let least = elements.max(self.foreseen.triangles).max(1) as f64;
+        let elements = match self.foreseen.asked {
+            // The plan knows into how many pieces triangles are cut.
+            Asked::Elements(n) | Asked::Unstated(n) if elements >= n => {
+                least.max(self.foreseen.planned.elements)
+            }
+            _ => least,
+        };
         self.now = Some(Now { elements, began: seconds, shape: Shape::default(), last: None });
     }
 
