@@ -14,6 +14,7 @@ mod needs;
 mod numerics;
 mod package;
 mod precision;
+mod progress;
 mod scenes;
 mod share;
 mod tidy;
@@ -59,6 +60,8 @@ enum Task {
     Numerics(numerics::Arguments),
     /// Measure what leaving out pays, scene by scene, and draw the tables of docs/plan.md.
     Needs(needs::Arguments),
+    /// Measure how right a solve is about the time that it still takes, for docs/progress.md.
+    Progress(progress::Arguments),
     /// Count the crates from outside that each of ours needs, and compare them with the table of
     /// docs/performance.
     Dependencies(dependencies::Arguments),
@@ -79,6 +82,7 @@ fn main() -> ExitCode {
         Task::Bench(arguments) => bench::run(&root, &arguments),
         Task::Numerics(arguments) => numerics::run(&root, &arguments),
         Task::Needs(arguments) => needs::run(&root, &arguments),
+        Task::Progress(arguments) => progress::run(&root, &arguments),
         Task::Dependencies(arguments) => dependencies::run(&root, &arguments),
         Task::Instructions(arguments) => instructions::run(&root, &arguments),
     };

@@ -12,8 +12,14 @@ const WORDS: &[(&str, &str)] = &[
     ("--every", "checkpoint"),
     #[cfg(not(feature = "checkpoint"))]
     ("--resume", "checkpoint"),
+    #[cfg(not(feature = "config"))]
+    ("--config", "config"),
     #[cfg(not(feature = "form-factors"))]
     ("form-factors", "form-factors"),
+    #[cfg(not(feature = "manual"))]
+    ("completions", "manual"),
+    #[cfg(not(feature = "manual"))]
+    ("man", "manual"),
     #[cfg(not(any(feature = "exr", feature = "png")))]
     ("--camera", "png"),
     #[cfg(not(any(feature = "exr", feature = "png")))]
@@ -30,7 +36,9 @@ const WORDS: &[(&str, &str)] = &[
 
 /// Refuses what needs a feature that this build lacks.
 pub(crate) fn refused(what: &str, feature: &str) -> Failure {
-    let message = format!("{what}: this program was built without the feature `{feature}`");
+    let message = format!(
+        "{what}: this program was built without the feature `{feature}`; build it with --features {feature}"
+    );
     Failure::Usage(message)
 }
 

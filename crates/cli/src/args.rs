@@ -5,10 +5,13 @@ mod checkpoint;
 mod form_factors;
 mod help;
 mod live;
+#[cfg(feature = "manual")]
+mod manual;
 mod picture;
 mod probe_grid;
 mod shooting;
 mod snapshot;
+mod terminal;
 #[cfg(feature = "html")]
 mod view;
 
@@ -22,10 +25,13 @@ pub(crate) use checkpoint::CheckpointArgs;
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 pub(crate) use help::CONVERTED;
 pub(crate) use live::LiveArgs;
+#[cfg(feature = "manual")]
+pub(crate) use manual::{CompletionsArgs, ManArgs};
 pub(crate) use picture::PictureArgs;
 pub(crate) use probe_grid::ProbeGridArgs;
 pub(crate) use shooting::{ShootingArgs, SplitArg};
 pub(crate) use snapshot::Every;
+pub(crate) use terminal::{ColorArg, LogArg, TerminalArgs};
 #[cfg(feature = "html")]
 pub(crate) use view::ViewArgs;
 
@@ -40,6 +46,9 @@ pub(crate) use view::ViewArgs;
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
+
+    #[command(flatten)]
+    pub(crate) terminal: TerminalArgs,
 }
 
 #[derive(Debug, Subcommand)]
@@ -64,6 +73,12 @@ pub(crate) enum Command {
     /// Make a page of a lit scene: walk about, ask points, read how wrong the light can be
     #[cfg(feature = "html")]
     View(ViewArgs),
+    /// Print what a shell needs to complete the command line
+    #[cfg(feature = "manual")]
+    Completions(CompletionsArgs),
+    /// Write manual pages
+    #[cfg(feature = "manual")]
+    Man(ManArgs),
 }
 
 /// How a scene file is read.
@@ -170,6 +185,11 @@ pub(crate) struct SolveArgs {
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Vec<PathBuf>,
 
+    /// Take flags from this file, each by its long name; what is typed wins (docs/config.md)
+    #[cfg(feature = "config")]
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) config: Option<PathBuf>,
+
     /// Write everything measured as JSON (docs/report.md says what each field is)
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
@@ -186,7 +206,7 @@ pub(crate) struct SolveArgs {
     pub(crate) max_time: Option<Duration>,
 
     /// Refine to no more than this many elements
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", conflicts_with_all = ["elements", "converge"])]
     pub(crate) max_elements: Option<usize>,
 
     /// Take no more memory than this, as 500MB or 4GiB: refine to fewer elements, or make fewer
@@ -207,7 +227,7 @@ pub(crate) struct SolveArgs {
 
     /// With --elements or --converge: solve that one mesh alone. Saves about a sixth of the
     /// time; the report then states no error
-    #[arg(long)]
+    #[arg(long, conflicts_with = "error")]
     pub(crate) no_statement: bool,
 
     /// Places to report the light at, written to -o NAME.probe.csv: a CSV with the columns

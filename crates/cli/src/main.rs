@@ -1,12 +1,13 @@
 //! The `radiosity` program: from a scene file to a lit scene with a report.
 //!
-//! Raw flags (`args`) become checked settings (`settings`, pure), which a command runs
+//! Raw flags (`args`, read by `command_line`) become checked settings (`settings`, pure), which a command runs
 //! (`commands`). `pipeline` is the way of the light, one call per arrow.
 
 mod absent;
 mod args;
 mod bundled;
 mod checkpoint;
+mod command_line;
 mod commands;
 mod failure;
 mod files;
@@ -17,35 +18,37 @@ mod memory;
 mod page;
 mod pipeline;
 mod prepared;
+mod progress;
 mod report;
 mod screen;
 mod settings;
+mod similar;
 mod snapshot;
 mod stages;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
+use std::time::Instant;
 
-use clap::Parser;
-
-use args::{Args, Command};
+use args::{Args, Command, TerminalArgs};
 use failure::Failure;
 
 fn main() -> ExitCode {
-    let result = match Args::try_parse() {
-        Ok(args) => run(args),
-        // Help and the version are among the errors.
-        Err(error) => Err(absent::of(&error).unwrap_or_else(|| error.exit())),
+    let start = Instant::now();
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let result = command_line::read(&words).and_then(|line| {
+        let (args, place) = line.split();
+        screen::open(args.terminal, start);
+        run(args).map_err(place)
+    });
+    let Err(failure) = result else { return ExitCode::SUCCESS };
+    screen::open(TerminalArgs::glance(&words), start);
+    let code = match failure {
+        Failure::Usage(_) => 2,
+        Failure::Failed(_) => 1,
     };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            screen::error(&failure.to_string());
-            ExitCode::from(match failure {
-                Failure::Usage(_) => 2,
-                Failure::Failed(_) => 1,
-            })
-        }
-    }
+    screen::error(&failure.to_string(), code);
+    ExitCode::from(code)
 }
 
 /// Runs a command with its flags resolved.
@@ -65,5 +68,9 @@ fn run(args: Args) -> Result<(), Failure> {
         Some(Command::Verify(args)) => commands::verify::run(&args),
         #[cfg(feature = "html")]
         Some(Command::View(args)) => commands::view::run(&args),
+        #[cfg(feature = "manual")]
+        Some(Command::Completions(args)) => commands::completions::run(&args),
+        #[cfg(feature = "manual")]
+        Some(Command::Man(args)) => commands::man::run(&args),
     }
 }

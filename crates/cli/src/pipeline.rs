@@ -16,7 +16,8 @@ use crate::interrupt::Interrupt;
 use crate::live::Live;
 use crate::memory::{self, Budget};
 use crate::prepared::Prepared;
-use crate::screen;
+use crate::progress::{Foreseen, Progress};
+use crate::screen::{self, Event};
 use crate::settings::{MOST_ELEMENTS, Read, Solve};
 use crate::snapshot::{Snapshot, Snapshots};
 use crate::stages::{StageSeconds, Stages};
@@ -68,7 +69,7 @@ pub(crate) fn solve(
     settings: &Solve,
     probes: &[Probe],
     snapshots: Option<Snapshots<'_>>,
-    live: Option<&mut Live<'_>>,
+    (live, progress): (Option<&mut Live<'_>>, &mut Progress),
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::listen();
     if let Some(live) = &live {
@@ -95,8 +96,18 @@ pub(crate) fn solve(
         None => usize::MAX,
     };
     let most = settings.limits.elements.unwrap_or(MOST_ELEMENTS).min(MOST_ELEMENTS);
+    progress.solve(Foreseen {
+        asked,
+        converge: settings.goal.converge(),
+        planned: prepared.plan.planned,
+        threads: prepared.threads(),
+        triangles: scene.triangles().len(),
+        most_elements: most.min(fitting),
+        most_seconds: settings.limits.time.map(|most| most.as_secs_f64()),
+    });
     let mut watch = Watch {
         clock,
+        progress,
         stages: Stages::default(),
         most: settings.limits.time,
         interrupt: interrupt.clone(),
@@ -186,6 +197,7 @@ fn fitting(budget: &Budget, asked: Asked) -> Result<usize, Failure> {
 /// checkpoints.
 struct Watch<'a, 'b> {
     clock: Instant,
+    progress: &'a mut Progress,
     stages: Stages,
     most: Option<Duration>,
     interrupt: Interrupt,
@@ -214,9 +226,11 @@ impl Watch<'_, '_> {
 impl Observer for Watch<'_, '_> {
     fn stage(&mut self, stage: Stage) {
         self.stages.begin(stage);
+        self.progress.stage(stage);
     }
 
     fn step(&mut self, report: &StepReport) -> Control {
+        self.progress.step(report);
         let last = self.curve[self.step..].last().map(|point| point.work.unshot);
         if last.is_none_or(|unshot| report.unshot <= unshot * CURVE_STEP) {
             let seconds = self.clock.elapsed().as_secs_f64();
@@ -233,9 +247,9 @@ impl Observer for Watch<'_, '_> {
     }
 
     fn elements(&mut self, planned: usize) -> usize {
-        let Some(budget) = &self.budget else { return planned };
-        let allowed = budget.next_level(self.kept);
+        let allowed = self.budget.as_ref().map_or(planned, |budget| budget.next_level(self.kept));
         self.coarsened |= allowed < planned;
+        self.progress.planned(planned.min(allowed));
         allowed
     }
 
@@ -273,8 +287,10 @@ impl Observer for Watch<'_, '_> {
         self.curve.push(CurvePoint { seconds, work: report.work, level });
         self.step = self.curve.len();
         self.kept = report.elements;
-        if self.refining {
-            screen::level(report, seconds);
+        let number = self.progress.level(report);
+        match self.refining {
+            true => screen::level(number, report, seconds),
+            false => screen::log(|| Event::level(number, report)),
         }
     }
 }

@@ -34,11 +34,14 @@ pub(crate) fn prepare(
     read: &Read,
     (goal, correction, timed): (Goal, Correction, bool),
     sharing: Loop,
+    mut phase: impl FnMut(&'static str),
 ) -> Result<Prepared, Failure> {
+    phase("planning");
     let clock = Instant::now();
     let plan = Plan::of(scene, &plan_config(work, read, goal, correction, timed, scene));
     let plan_seconds = clock.elapsed().as_secs_f64();
     let pool = Pool::with_loop(plan.threads, sharing)?;
+    phase("occluder");
     let clock = Instant::now();
     let triangles: Vec<_> = scene.ids().map(|id| scene.corners(id)).collect();
     let config = BvhConfig::default();

@@ -1,37 +1,97 @@
 //! Everything the program says: messages on stderr, results of commands on stdout.
 
+mod event;
+mod terminal;
+
 use std::io::Write;
 
 use radiosity_core::{LevelReport, Parts, Reached, Statement};
 
 use crate::failure::Failure;
+pub(crate) use event::{Event, StepFacts, WorkFacts};
+pub(crate) use terminal::open;
+use terminal::{ERROR, KEY, WARNING, terminal};
 
-/// Says something on stderr. A reader that went away is no reason to fail.
+/// Says something on stderr.
 pub(crate) fn say(line: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{line}");
+    let text = || anstream::adapter::strip_str(line).to_string();
+    tell(|| Event::Message { text: text() }, line);
+}
+
+/// Says the same as a line of text, or as an object with `--log json`.
+pub(crate) fn tell<'a>(event: impl FnOnce() -> Event<'a>, line: &str) {
+    if !terminal().json && !terminal().quiet {
+        terminal().line(line);
+    }
+    log(event);
+}
+
+/// Says what only `--log json` has a line for.
+pub(crate) fn log<'a>(event: impl FnOnce() -> Event<'a>) {
+    if logs() {
+        terminal().object(&event());
+    }
+}
+
+/// Whether objects are said.
+pub(crate) fn logs() -> bool {
+    terminal().json && !terminal().quiet
 }
 
 /// Says why the program fails.
-pub(crate) fn error(message: &str) {
-    say(&format!("radiosity: error: {message}"));
+pub(crate) fn error(message: &str, exit_code: u8) {
+    match terminal().json {
+        true => terminal().object(&Event::Error { text: message, exit_code }),
+        false => {
+            let label = terminal().styled(ERROR, "error:");
+            terminal().line(&format!("radiosity: {label} {message}"));
+        }
+    }
 }
 
 /// Says what should be looked at.
 pub(crate) fn warning(message: &str) {
-    say(&format!("radiosity: warning: {message}"));
+    match terminal().json {
+        true => terminal().object(&Event::Warning { text: message }),
+        false => {
+            let label = terminal().styled(WARNING, "warning:");
+            terminal().line(&format!("radiosity: {label} {message}"));
+        }
+    }
+}
+
+/// Says what ended the work before its goal.
+pub(crate) fn limit(limit: &str, text: &str) {
+    match logs() {
+        true => log(|| Event::Limit { limit, text }),
+        false => warning(text),
+    }
+}
+
+/// A number that matters most, in bold where there are colours.
+pub(crate) fn key(number: &str) -> String {
+    terminal().styled(KEY, number)
+}
+
+/// Where bars are drawn.
+pub(crate) fn bars() -> &'static crate::progress::Bars {
+    &terminal().bars
 }
 
 /// Says what a level of refinement reached.
-pub(crate) fn level(report: &LevelReport, elapsed: f64) {
+pub(crate) fn level(number: u32, report: &LevelReport, elapsed: f64) {
     let known = match report.statement.map(|s| s.triangles.e1) {
-        Some(parts) if parts.total().is_finite() => format!("error {}", percent(parts.total())),
+        Some(parts) if parts.total().is_finite() => {
+            format!("error {}", key(&percent(parts.total())))
+        }
         Some(parts) if parts.mesh.is_finite() => {
             format!("mesh error {}, form factors not judged yet", percent(parts.mesh))
         }
         _ => "no statement from one mesh".into(),
     };
     let elements = count(report.elements as u64);
-    say(&format!("{elements} elements: {known}, {}", seconds(elapsed)));
+    let line = format!("{elements} elements: {known}, {}", seconds(elapsed));
+    tell(|| Event::level(number, report), &line);
 }
 
 /// Says how wrong the light may be, and if nothing is known of that, why.
@@ -40,30 +100,33 @@ pub(crate) fn statement(statement: Option<&Statement>, reached: Reached) {
     let parts = |p: &Parts| {
         format!(
             "{} = iteration {} + form factors {} + mesh {}",
-            share(p.total()),
+            key(&share(p.total())),
             share(p.iteration),
             share(p.form_factor),
             share(p.mesh)
         )
     };
     let (triangles, points) = (&statement.triangles, &statement.points);
-    say(&format!("error: at most {} of the triangles' exitance (E1)", parts(&triangles.e1)));
-    say(&format!(
-        "       largest {} of the mean on one triangle; at single places {}, largest {}",
-        share(triangles.einf.total()),
-        share(points.e1.total()),
-        share(points.einf.total())
-    ));
+    let mut lines = vec![
+        format!("error: at most {} of the triangles' exitance (E1)", parts(&triangles.e1)),
+        format!(
+            "       largest {} of the mean on one triangle; at single places {}, largest {}",
+            share(triangles.einf.total()),
+            share(points.e1.total()),
+            share(points.einf.total())
+        ),
+    ];
     let [least, most] = statement.rows;
     if statement.sample > 0 {
-        say(&format!(
+        lines.push(format!(
             "       form factors sum to {least:.6} to {most:.6} in {} sampled elements; 1 if closed",
             statement.sample
         ));
     }
     if let Some(probes) = &statement.probes {
-        say(&format!("       at the probes {}", parts(&probes.e1)));
+        lines.push(format!("       at the probes {}", parts(&probes.e1)));
     }
+    tell(|| Event::statement(statement), &lines.join("\n"));
     if triangles.e1.mesh.is_infinite() {
         warning(match reached {
             Reached::Unseen => {

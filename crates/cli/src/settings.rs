@@ -115,7 +115,9 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
     }
     check_exposure(args.picture.exposure)?;
     if outputs.iter().filter(|t| **t == Target::Stdout).count() > 1 {
-        return Err(Failure::Usage("-o -: stdout takes one table, and is named twice".into()));
+        return Err(Failure::Usage(
+            "-o -: stdout takes one table, and is named twice; leave one out".into(),
+        ));
     }
     args.report.as_deref().map(check_report).transpose()?;
     let wants_probes = outputs.iter().any(|t| matches!(t, Target::Probes(_)));
@@ -133,10 +135,6 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
     let fixed = args.work.elements.is_some() || args.converge.is_some();
     if args.no_statement && !fixed {
         let message = "--no-statement: refining needs the statement; fix the work with --elements";
-        return Err(Failure::Usage(message.into()));
-    }
-    if fixed && args.max_elements.is_some() {
-        let message = "--max-elements limits refining; --elements and --converge fix the mesh";
         return Err(Failure::Usage(message.into()));
     }
     if args.snapshot.is_some() && !outputs.iter().any(|t| matches!(t, Target::File(_))) {
@@ -251,7 +249,9 @@ impl Default for Shooting {
 fn threads(threads: usize) -> Result<usize, Failure> {
     const MOST: usize = 4096;
     if threads > MOST {
-        return Err(Failure::Usage(format!("--threads: expected at most {MOST}")));
+        return Err(Failure::Usage(format!(
+            "--threads: expected at most {MOST}, or 0 for as many as the machine has"
+        )));
     }
     Ok(threads)
 }
@@ -324,8 +324,10 @@ pub(crate) fn output_options(
 fn find_camera(name: &str, scene: &scene::Scene) -> Result<scene::Camera, Failure> {
     scene.cameras().iter().find(|c| c.name == name).cloned().ok_or_else(|| {
         let known: Vec<_> = scene.cameras().iter().map(|c| format!("{:?}", c.name)).collect();
-        let known = if known.is_empty() { "none".into() } else { known.join(", ") };
-        Failure::Usage(format!("--camera {name:?}: the scene has {known}"))
+        Failure::Usage(match known.as_slice() {
+            [] => format!("--camera {name:?}: the scene has no camera; leave the flag out"),
+            known => format!("--camera {name:?}: the scene has {}", known.join(", ")),
+        })
     })
 }
 

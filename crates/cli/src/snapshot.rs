@@ -10,7 +10,7 @@ use scene::{Scene, Solution};
 use crate::args::Every;
 use crate::failure::Failure;
 use crate::files;
-use crate::screen::{self, count, percent, seconds};
+use crate::screen::{self, Event, WorkFacts, count, percent, seconds};
 use crate::settings::{Solve, Target};
 
 /// Writes snapshots when they are due.
@@ -106,13 +106,20 @@ impl<'a> Snapshots<'a> {
         }
         let names: Vec<_> = written.iter().map(|path| path.display().to_string()).collect();
         if !names.is_empty() {
-            screen::say(&format!(
+            let line = format!(
                 "snapshot after {} shots, {}: {} unshot; {}",
                 count(work.shots),
                 seconds(taken),
                 percent(work.unshot),
                 names.join(", ")
-            ));
+            );
+            let event = || Event::Snapshot {
+                number,
+                work: WorkFacts::of(work),
+                elements: solution.elements.len() as u64,
+                files: names.clone(),
+            };
+            screen::tell(event, &line);
         }
         let (elements, work) = (solution.elements.len(), *work);
         self.written.push(Snapshot { number, seconds: taken, elements, work, files: written });

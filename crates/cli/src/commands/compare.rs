@@ -7,6 +7,7 @@ use output::csv;
 
 use crate::args::CompareArgs;
 use crate::failure::Failure;
+use crate::files;
 use crate::screen::result;
 
 /// Prints E1, E2 and Einf per channel; the last column is the worst channel.
@@ -41,6 +42,7 @@ fn row(name: &str, [r, g, b]: [f64; 3], worst: f64) -> Result<(), Failure> {
 }
 
 fn read(path: &Path) -> Result<Vec<csv::Row>, Failure> {
+    files::check_read(path)?;
     let file = File::open(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
     Ok(csv::read(file).map_err(|e| e.at(path))?)
 }

@@ -6,7 +6,7 @@ use tri_io::Writer;
 use crate::args::{CONVERTED, ConvertArgs};
 use crate::commands::solve;
 use crate::failure::Failure;
-use crate::screen::{self, say};
+use crate::screen::{self, Event, tell};
 use crate::{files, settings};
 
 /// Reads a scene and writes it again.
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
     if format != Format::Tri {
         solve::check_factors(&file, &imported, &read)?;
     }
-    say(&format!("{file}: {}", imported.summary));
+    tell(|| Event::scene(&file, &imported), &format!("{file}: {}", imported.summary));
     screen::diagnostics(&imported.diagnostics);
     let scene = &imported.scene;
     match format {
@@ -50,6 +50,7 @@ pub(crate) fn run(args: &ConvertArgs) -> Result<(), Failure> {
             output::write_file(path, scene, &output::unlit(scene), &options)?;
         }
     }
-    say(&format!("written: {}", path.display()));
+    let written = [path.display().to_string()];
+    tell(|| Event::Written { files: &written }, &format!("written: {}", written[0]));
     Ok(())
 }

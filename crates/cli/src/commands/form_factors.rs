@@ -16,7 +16,7 @@ use scene::Scene;
 
 use crate::failure::Failure;
 use crate::files;
-use crate::screen::{self, count, say, seconds};
+use crate::screen::{self, Event, count, say, seconds, tell};
 use crate::settings::{FormFactors, TableTarget};
 use report::Report;
 
@@ -40,7 +40,8 @@ pub(crate) fn run(settings: &FormFactors) -> Result<(), Failure> {
     let clock = Instant::now();
     let imported = scene_import::open(&settings.scene, &settings.options)?;
     let read_seconds = clock.elapsed().as_secs_f64();
-    say(&format!("{}: {}", settings.scene.display(), imported.summary));
+    let file = settings.scene.display().to_string();
+    tell(|| Event::scene(&file, &imported), &format!("{file}: {}", imported.summary));
     screen::diagnostics(&imported.diagnostics);
 
     let scene = &imported.scene;
@@ -56,7 +57,10 @@ pub(crate) fn run(settings: &FormFactors) -> Result<(), Failure> {
     let compute_seconds = clock.elapsed().as_secs_f64();
 
     let Some(raw) = computed.matrix.defects() else {
-        let message = format!("{}: has no surface with area", settings.scene.display());
+        let message = format!(
+            "{}: has no surface with area, expected a triangle at least whose corners are apart",
+            settings.scene.display()
+        );
         return Err(Failure::Failed(message));
     };
     let reciprocity = computed.matrix.asymmetry();
@@ -88,7 +92,7 @@ pub(crate) fn run(settings: &FormFactors) -> Result<(), Failure> {
         seconds(found.compute_seconds),
         seconds(found.output_seconds)
     ));
-    say(&format!("written: {}", written.join(", ")));
+    tell(|| Event::Written { files: &written }, &format!("written: {}", written.join(", ")));
     Ok(())
 }
 
@@ -104,7 +108,8 @@ fn check_files(settings: &FormFactors) -> Result<(), Failure> {
     paths.extend(settings.report.clone());
     let paths: Vec<&Path> = paths.iter().map(PathBuf::as_path).collect();
     files::check_apart(Some(&settings.scene), &paths)?;
-    paths.into_iter().try_for_each(files::check)
+    paths.into_iter().try_for_each(files::check)?;
+    files::check_read(&settings.scene)
 }
 
 /// Groups where the file tells some apart, else triangles.

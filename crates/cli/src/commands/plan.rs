@@ -41,7 +41,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<(), Failure> {
         None => Goal::Error(args.error),
     };
     let how = (goal, Correction::Auto, false);
-    let prepared = prepared::prepare(&imported.scene, &work, &read, how, Loop::default())?;
+    let prepared = prepared::prepare(&imported.scene, &work, &read, how, Loop::default(), |_| {})?;
     let config = work.mesh(imported.scene.triangles().len());
     let (mesh, census, time) = pipeline::mesh(&imported.scene, &prepared, &config, &read);
     solve::warn_of_coarseness(&imported.scene, &mesh);

@@ -19,8 +19,9 @@ use crate::memory::Budget;
 use crate::page;
 use crate::pipeline::{self, INTERRUPT, Solved};
 use crate::prepared::{self, Prepared};
+use crate::progress::Progress;
 use crate::report::{Report, Run};
-use crate::screen::{self, count, percent, rough, say, seconds};
+use crate::screen::{self, Event, count, key, percent, rough, say, seconds, tell};
 use crate::settings::{self, Goal, Read, Solve, Target, Work};
 use crate::snapshot::Snapshots;
 use crate::{bundled, files};
@@ -86,6 +87,10 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     for path in paths {
         files::check(path)?;
     }
+    let read = [&settings.scene, &settings.probe, &settings.keeping.resume];
+    read.into_iter().flatten().try_for_each(|path| files::check_read(path))?;
+    let mut progress = Progress::new(settings.goal);
+    progress.phase("reading");
     let clock = Instant::now();
     let mut read = settings.read;
     // A lit GLB is the scene's own document, where it has one.
@@ -93,7 +98,7 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let (file, mut imported) = open(settings.scene.as_deref(), &read)?;
     check_factors(&file, &imported, &settings.read)?;
     let read_seconds = clock.elapsed().as_secs_f64();
-    say(&format!("{file}: {}", imported.summary));
+    tell(|| Event::scene(&file, &imported), &format!("{file}: {}", imported.summary));
     screen::diagnostics(&imported.diagnostics);
     let document = keep_document(&file, &mut imported)?;
     let options = settings::output_options(&settings.picture, &imported.scene)?;
@@ -112,13 +117,22 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     // What a plan knows of surfaces does not hold in the open.
     let open = matches!(&places, Places::Free(free) if !free.is_empty());
     let work = Work { everything: settings.work.everything || open, ..settings.work };
-    let prepared =
-        prepared::prepare(&imported.scene, &work, &settings.read, goal, settings.shooting.sharing)?;
+    let prepared = prepared::prepare(
+        &imported.scene,
+        &work,
+        &settings.read,
+        goal,
+        settings.shooting.sharing,
+        |phase| progress.phase(phase),
+    )?;
+    screen::log(|| Event::plan(&prepared.plan));
     let probes = probes(&places);
     let snapshots = Snapshots::of(settings, &imported.scene, &options);
     let mut live = Live::start(settings, &file, &imported, &options)?;
     let scene = &imported.scene;
-    let solved = pipeline::solve(scene, &prepared, settings, &probes, snapshots, live.as_mut())?;
+    let watching = (live.as_mut(), &mut progress);
+    let solved = pipeline::solve(scene, &prepared, settings, &probes, snapshots, watching)?;
+    progress.phase("writing");
     if let Some(live) = &mut live {
         live.finish(&solved.refined.work, &solved.refined.solution);
     }
@@ -146,6 +160,9 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     };
     let mut outputs = Vec::new();
     for target in &settings.outputs {
+        if *target == Target::Stdout {
+            progress.clear();
+        }
         let so_far = || report(&clock, &outputs);
         let written = write(target, &imported, &solved, &places, &options, so_far)?;
         outputs.push(written);
@@ -155,15 +172,24 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         report(&clock, &outputs).write(path)?;
         outputs.push(path.display().to_string());
     }
-    say(&format!(
+    progress.clear();
+    let times = format!(
         "time: read {}, plan {}, occluder {}, solve {}, output {}",
         seconds(read_seconds),
         seconds(prepared.plan_seconds),
         seconds(prepared.occluder_seconds),
         seconds(solved.seconds),
         seconds(output_seconds)
-    ));
-    say(&format!("written: {}", outputs.join(", ")));
+    );
+    let event = || Event::Time {
+        read_seconds,
+        plan_seconds: prepared.plan_seconds,
+        occluder_seconds: prepared.occluder_seconds,
+        solve_seconds: solved.seconds,
+        output_seconds,
+    };
+    tell(event, &times);
+    tell(|| Event::Written { files: &outputs }, &format!("written: {}", outputs.join(", ")));
     Ok(())
 }
 
@@ -222,6 +248,7 @@ pub(crate) fn warn_of_coarseness(scene: &Scene, mesh: &Mesh) {
 
 /// Opens a file, or the bundled scene.
 pub(crate) fn open(path: Option<&Path>, read: &Read) -> Result<(String, Imported), Failure> {
+    path.map(files::check_read).transpose()?;
     match path {
         Some(path) => Ok((path.display().to_string(), scene_import::open(path, &read.options)?)),
         None => Ok((bundled::NAME.to_owned(), bundled::open(&read.options)?)),
@@ -336,7 +363,7 @@ fn say_limit(solved: &Solved, goal: Goal) {
     let unshot = percent(refined.work.unshot);
     let elements = count(refined.mesh.elements().len() as u64);
     let stated = refined.statement.is_some_and(|s| s.triangles.e1.total().is_finite());
-    screen::warning(&match goal {
+    let text = match goal {
         _ if refined.work.shots == 0 => {
             format!("{what} before the first step was done: what is written is the emittance alone")
         }
@@ -350,21 +377,24 @@ fn say_limit(solved: &Solved, goal: Goal) {
         Goal::Mesh { .. } => {
             format!("{what} with {elements} elements and {unshot} of the emitted power unshot")
         }
-    });
+    };
+    screen::limit(limit, &text);
 }
 
 fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
     let refined = &solved.refined;
     let (mesh, work, ledger) = (&refined.mesh, &refined.total_work, &refined.ledger);
-    say(&format!(
+    let (occluders, threads) = (prepared.occluder_name, prepared.threads());
+    let line = format!(
         "{} elements in {} patches, {} receiver points; occluders: {}; {} {}",
         count(mesh.elements().len() as u64),
         count(mesh.patches().len() as u64),
         count(mesh.points().len() as u64),
-        prepared.occluder_name,
-        prepared.threads(),
-        if prepared.threads() == 1 { "thread" } else { "threads" },
-    ));
+        occluders,
+        threads,
+        if threads == 1 { "thread" } else { "threads" },
+    );
+    tell(|| Event::mesh(refined, occluders, threads), &line);
     if mesh.covered() > 0 {
         screen::warning(&format!(
             "{} triangles lie wholly or in part under earlier ones in their plane: what is \
@@ -376,21 +406,23 @@ fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
         screen::warning("nothing emits: the scene stays dark");
         return;
     }
-    say(&format!(
+    let line = format!(
         "{} shots, {} segments, {} form factors; {} of the emitted power unshot{}",
         count(work.shots),
         count(work.rays),
         count(work.form_factors),
-        percent(work.unshot),
+        key(&percent(work.unshot)),
         if refined.corrected { "; ambient corrections" } else { "" }
-    ));
+    );
+    tell(|| Event::work(refined), &line);
     say_plan(&prepared.plan, refined);
     screen::statement(refined.statement.as_ref(), refined.reached);
     say_limit(solved, settings.goal);
     if let Some([least, most]) = refined.closed_rows {
-        say(&format!("rows: form factors summed to {least:.6} to {most:.6}, closed to 1"));
+        let line = format!("rows: form factors summed to {least:.6} to {most:.6}, closed to 1");
+        tell(|| Event::Rows { least, most }, &line);
     }
-    say(&format!(
+    let line = format!(
         "energy: absorbed {}, escaped {} (form factors: {}), wrong side {}, unshot {}; sum off by {:.0e}",
         percent(ledger.share(ledger.absorbed)),
         percent(ledger.share(ledger.escaped)),
@@ -398,7 +430,8 @@ fn say_solved(prepared: &Prepared, solved: &Solved, settings: &Solve) {
         percent(ledger.share(ledger.wrong_side)),
         percent(ledger.share(ledger.unshot)),
         ledger.imbalance()
-    ));
+    );
+    tell(|| Event::energy(ledger), &line);
     let defect = ledger.share(ledger.form_factor_defect);
     if defect.abs() > DEFECT_WORTH_SAYING {
         screen::warning(&format!(

@@ -18,7 +18,9 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<(), Failure> {
     if let Some(part) = &args.only {
         all.retain(|check| check.name.contains(part.as_str()));
         if all.is_empty() {
-            return Err(Failure::Usage(format!("--only {part:?}: no case has that in its name")));
+            return Err(Failure::Usage(format!(
+                "--only {part:?}: no case has that in its name; `radiosity verify` lists all"
+            )));
         }
     }
     let width = all.iter().map(|c| c.name.chars().count()).max().unwrap_or(0);

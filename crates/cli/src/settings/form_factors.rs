@@ -38,7 +38,9 @@ pub(crate) enum TableTarget {
 pub(crate) fn form_factors(args: FormFactorsArgs) -> Result<FormFactors, Failure> {
     let outputs = args.output.into_iter().map(table).collect::<Result<Vec<_>, _>>()?;
     if outputs.iter().filter(|t| **t == TableTarget::Stdout).count() > 1 {
-        return Err(Failure::Usage("-o -: stdout takes one table, and is named twice".into()));
+        return Err(Failure::Usage(
+            "-o -: stdout takes one table, and is named twice; leave one out".into(),
+        ));
     }
     if args.tolerance < REFERENCE {
         let message = format!("--tolerance: expected {REFERENCE:e} to 1");

@@ -32,7 +32,9 @@ pub(super) fn keeping(args: CheckpointArgs) -> Result<Keeping, Failure> {
     let CheckpointArgs { checkpoint, every, resume } = args;
     for (flag, path) in [("--checkpoint", &checkpoint), ("--resume", &resume)] {
         if path.as_deref() == Some(Path::new("-")) {
-            return Err(Failure::Usage(format!("{flag} -: expected a file")));
+            return Err(Failure::Usage(format!(
+                "{flag} -: expected a file name, such as {flag} light.ckpt"
+            )));
         }
     }
     Ok(Keeping { checkpoint, every: every.unwrap_or(DEFAULT_EVERY), resume })

@@ -2,7 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
 
+#[cfg(feature = "config")]
+mod config;
 mod features;
+mod log;
+#[cfg(feature = "manual")]
+mod manual;
+mod mistakes;
 #[cfg(feature = "obj")]
 mod outside;
 mod plan;
@@ -12,3 +18,5 @@ mod solve;
 mod statement;
 mod stopping;
 mod support;
+#[cfg(unix)]
+mod terminal;
