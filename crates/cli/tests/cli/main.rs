@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
 
+#[cfg(feature = "png")]
+mod compare;
 mod features;
 mod plan;
 #[cfg(feature = "obj")]
