@@ -24,6 +24,12 @@ const WORDS: &[(&str, &str)] = &[
     ("--camera", "png"),
     #[cfg(not(any(feature = "exr", feature = "png")))]
     ("--size", "png"),
+    #[cfg(not(feature = "png"))]
+    ("--picture", "png"),
+    #[cfg(not(feature = "png"))]
+    ("--range", "png"),
+    #[cfg(not(feature = "png"))]
+    ("--scene", "png"),
     #[cfg(not(feature = "verify"))]
     ("verify", "verify"),
     #[cfg(not(feature = "html"))]

@@ -1,6 +1,7 @@
 //! The command line as it is typed.
 
 mod checkpoint;
+mod compare;
 #[cfg(feature = "form-factors")]
 mod form_factors;
 mod help;
@@ -21,6 +22,7 @@ use std::time::Duration;
 use clap::{Parser, Subcommand, ValueEnum};
 
 pub(crate) use checkpoint::CheckpointArgs;
+pub(crate) use compare::CompareArgs;
 #[cfg(feature = "form-factors")]
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 pub(crate) use help::CONVERTED;
@@ -288,28 +290,6 @@ pub(crate) struct ConvertArgs {
 
     #[command(flatten)]
     pub(crate) read: ReadArgs,
-}
-
-#[derive(Debug, clap::Args)]
-#[command(after_help = "\
-Both files have the columns triangle,area,B_r,B_g,B_b. B may also have se_r,se_g,se_b (its
-standard error) and emits,ambiguous (1 leaves the row out).
-
-  E1    sum of area * |A - B| over sum of area * B: the relative error of the power
-  E2    root of: sum of area * (A - B)^2 over sum of area * B^2
-  Einf  largest |A - B| over the area mean of B")]
-pub(crate) struct CompareArgs {
-    /// The solution to judge
-    #[arg(value_name = "A")]
-    pub(crate) ours: PathBuf,
-
-    /// The reference
-    #[arg(value_name = "B")]
-    pub(crate) reference: PathBuf,
-
-    /// Fail (exit code 1) if E1 of the worst channel is above this, as 0.03 or 3%
-    #[arg(long, value_name = "X", value_parser = share)]
-    pub(crate) at_most: Option<f64>,
 }
 
 #[cfg(feature = "verify")]

@@ -60,12 +60,35 @@ pub fn coaxial_discs(a: f64, b: f64, h: f64) -> f64 {
     2.0 * ratio / (s + (s * s - 4.0 * ratio).sqrt())
 }
 
-/// B-3: from a point to a parallel rectangle a × b at distance c, a corner above the point.
+/// B-3: from a point to a parallel rectangle a × b at distance c, a corner above the point. Odd in a
+/// and in b, so that differences give rectangles elsewhere.
 #[must_use]
 pub fn point_to_parallel_rectangle(a: f64, b: f64, c: f64) -> f64 {
     let (x, y) = (a / c, b / c);
     let (x2, y2) = ((1.0 + x * x).sqrt(), (1.0 + y * y).sqrt());
     (x / x2 * (y / x2).atan() + y / y2 * (x / y2).atan()) / TAU
+}
+
+/// B-4: from a point that looks along a to a rectangle a × b at distance c from it, a corner where
+/// the plane's normal through the point meets it. Odd in b; differences give rectangles elsewhere.
+#[must_use]
+pub fn point_to_perpendicular_rectangle(a: f64, b: f64, c: f64) -> f64 {
+    let slant = a.hypot(c);
+    ((b / c).atan() - c / slant * (b / slant).atan()) / TAU
+}
+
+/// B-3 for the rectangle of these two x and two y, seen from the origin.
+#[must_use]
+pub fn point_to_parallel([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], c: f64) -> f64 {
+    let corner = |x, y| point_to_parallel_rectangle(x, y, c);
+    corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0)
+}
+
+/// B-4 for the rectangle of these two distances along the look, each at least 0, and two aside.
+#[must_use]
+pub fn point_to_perpendicular([a0, a1]: [f64; 2], [b0, b1]: [f64; 2], c: f64) -> f64 {
+    let corner = |a, b| point_to_perpendicular_rectangle(a, b, c);
+    corner(a1, b1) - corner(a0, b1) - corner(a1, b0) + corner(a0, b0)
 }
 
 #[cfg(test)]
@@ -93,6 +116,17 @@ mod tests {
         // A small disc sees a large one like a point: sin² of the half angle.
         let small = coaxial_discs(1e-4, 2.0, 1.0);
         assert!((small - 4.0 / 5.0).abs() < 1e-8, "{small}");
+        // A quarter of the plane above is a quarter of the half-space that a look along it sees.
+        let quarter = point_to_perpendicular_rectangle(1e9, 1e9, 1.0);
+        assert!((quarter - 0.25).abs() < 1e-8, "{quarter}");
+        // The mean of the point's over a rectangle is that of the rectangle (C-14): midpoints.
+        let n = 400;
+        let at = |i: i32| (f64::from(i) + 0.5) / f64::from(n);
+        let point =
+            |i: i32, j: i32| point_to_perpendicular([0.0, 1.0], [-at(i), 1.0 - at(i)], at(j));
+        let sum: f64 = (0..n).flat_map(|i| (0..n).map(move |j| point(i, j))).sum();
+        let mean = sum / f64::from(n * n);
+        assert!((mean - perpendicular_rectangles(1.0, 1.0, 1.0)).abs() < 1e-5, "{mean}");
         // Four corners of a far square look like one small patch: A / (π c²).
         let far = 4.0 * point_to_parallel_rectangle(0.5, 0.5, 1000.0) * PI * 1e6;
         assert!((far - 1.0).abs() < 1e-6, "{far}");

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod case;
+pub mod cie171;
 mod error;
 pub mod howell;
 pub mod shapes;

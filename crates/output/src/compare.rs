@@ -87,7 +87,10 @@ pub fn compare(ours: &[Row], reference: &[Row]) -> Result<Comparison, Error> {
 }
 
 /// The rows that count, side by side.
-fn pair<'a>(ours: &'a [Row], reference: &'a [Row]) -> Result<Vec<(&'a Row, &'a Row)>, Error> {
+pub(crate) fn pair<'a>(
+    ours: &'a [Row],
+    reference: &'a [Row],
+) -> Result<Vec<(&'a Row, &'a Row)>, Error> {
     if ours.len() != reference.len() {
         let (ours, reference) = (ours.len(), reference.len());
         return Err(Error::new(ErrorKind::RowCount { ours, reference }));

@@ -96,6 +96,22 @@ pub enum ErrorKind {
         /// The row, from 0.
         row: usize,
     },
+    /// Rows that are not one for each triangle of a scene, in its order.
+    SceneRows {
+        /// How many rows there are.
+        rows: usize,
+        /// How many triangles the scene has.
+        triangles: usize,
+    },
+    /// A row, counted from 0, whose triangle has another area in the scene.
+    SceneArea {
+        /// The row, from 0.
+        row: usize,
+        /// The area in the row.
+        reference: f64,
+        /// The area in the scene.
+        scene: f64,
+    },
     /// Every row emits or is ambiguous, so nothing is left to compare.
     NoRows,
     /// The file could not be read.
@@ -205,6 +221,13 @@ impl fmt::Display for ErrorKind {
             }
             Self::RowValue { row } => {
                 write!(f, "row {row}: expected finite values and an area of at least 0")
+            }
+            Self::SceneRows { rows, triangles } => write!(
+                f,
+                "{rows} rows, expected one for each of the scene's {triangles} triangles, in their order"
+            ),
+            Self::SceneArea { row, reference, scene } => {
+                write!(f, "row {row}: area {reference} against {scene} in the scene")
             }
             Self::NoRows => write!(f, "nothing to compare: every row emits or is ambiguous"),
             Self::Read => write!(f, "cannot be read"),

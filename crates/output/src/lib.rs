@@ -8,6 +8,8 @@ pub mod camera;
 mod check;
 pub mod compare;
 pub mod csv;
+#[cfg(feature = "png")]
+pub mod difference;
 mod error;
 mod file;
 mod format;

@@ -23,7 +23,7 @@ use crate::{Error, Options, camera};
 #[cfg(feature = "exr")]
 pub(crate) use exr::write as write_exr;
 #[cfg(feature = "png")]
-pub(crate) use png::write as write_png;
+pub(crate) use png::{encode as encode_png, write as write_png};
 pub(crate) use raster::ScreenTriangle;
 pub(crate) use view::View;
 
@@ -148,7 +148,11 @@ impl Pixel {
 
 /// Draws through the camera of the options, or the scene's first, or one found for it.
 fn draw_with(scene: &Scene, solution: &Solution, options: &Options) -> Result<Picture, Error> {
+    render(scene, solution, &camera_of(scene, options), options.size, options.samples)
+}
+
+/// The camera of the options, or the scene's first, or one found for it.
+pub(crate) fn camera_of(scene: &Scene, options: &Options) -> Camera {
     let chosen = options.camera.as_ref().or(scene.cameras().first());
-    let camera = chosen.cloned().unwrap_or_else(|| camera::automatic(scene));
-    render(scene, solution, &camera, options.size, options.samples)
+    chosen.cloned().unwrap_or_else(|| camera::automatic(scene))
 }

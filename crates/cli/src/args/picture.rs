@@ -37,6 +37,12 @@ impl Default for PictureArgs {
 }
 
 impl PictureArgs {
+    /// Whether any of them is given.
+    #[cfg(feature = "png")]
+    pub(crate) fn are_given(&self) -> bool {
+        self.camera.is_some() || self.size.is_some() || self.exposure != 0.0
+    }
+
     /// The camera that a picture is taken with, if one is named.
     pub(crate) fn camera(&self) -> Option<&str> {
         #[cfg(any(feature = "exr", feature = "png"))]

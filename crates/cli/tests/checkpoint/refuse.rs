@@ -60,9 +60,9 @@ fn damage_is_found() {
         bytes[end..].copy_from_slice(&sum);
     };
     let mut newer = whole.clone();
-    newer[8] = 2;
+    newer[8] = 3;
     summed(&mut newer);
-    assert!(message(&newer).contains("format 2, expected 1: a newer program wrote it"));
+    assert!(message(&newer).contains("format 3, expected 2: a newer program wrote it"));
     let mut shorter = whole[..whole.len() - 8].to_vec();
     summed(&mut shorter);
     assert!(message(&shorter).contains("is damaged, or of other work"));

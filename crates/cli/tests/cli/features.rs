@@ -38,6 +38,11 @@ fn what_is_left_out_is_named_and_the_rest_works() {
             cfg!(any(feature = "exr", feature = "png")),
             &["solve", "box.tri", "--size", "9x9", "-o", "-"],
         ),
+        (
+            "png",
+            cfg!(feature = "png"),
+            &["compare", "a.csv", "b.csv", "--picture", "d.png", "--scene", "box.tri"],
+        ),
         ("exr", cfg!(feature = "exr"), &["solve", "box.tri", "--elements", "20", "-o", "a.exr"]),
         ("verify", cfg!(feature = "verify"), &["verify", "--only", "no such"]),
     ];

@@ -4,6 +4,8 @@
 
 #[cfg(feature = "config")]
 mod config;
+#[cfg(feature = "png")]
+mod compare;
 mod features;
 mod log;
 #[cfg(feature = "manual")]

@@ -4,6 +4,7 @@
 #![expect(clippy::print_stdout, reason = "tests say what they measured and what they left out")]
 
 mod case_files;
+mod cie171;
 mod closed_forms;
 mod exact_cases;
 mod form_factors;

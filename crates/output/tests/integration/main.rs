@@ -8,6 +8,8 @@ mod camera;
 mod common;
 mod compare;
 mod csv;
+#[cfg(feature = "png")]
+mod difference;
 #[cfg(feature = "exr")]
 mod exr;
 mod file;
