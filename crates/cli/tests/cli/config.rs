@@ -6,9 +6,6 @@ use serde_json::Value;
 
 use crate::support::{box_tri, folder_with, radiosity};
 
-/// The file that docs/config.md shows.
-const EXAMPLE: &str = include_str!("../../../../docs/solve.toml");
-
 fn report(path: &Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
@@ -90,6 +87,8 @@ fn wrong_files_are_refused_with_place_and_expectation() {
 #[cfg(all(feature = "gltf", feature = "png"))]
 #[test]
 fn the_example_works() {
+    /// The file that docs/config.md names.
+    const EXAMPLE: &str = include_str!("../../../../docs/solve.toml");
     let folder = tempfile::tempdir().unwrap();
     for name in ["docs", "scenes", "out"] {
         std::fs::create_dir(folder.path().join(name)).unwrap();
