@@ -7,7 +7,6 @@ use output::csv;
 
 use crate::args::CompareArgs;
 use crate::failure::Failure;
-use crate::files;
 use crate::screen::result;
 #[cfg(feature = "png")]
 use crate::{files, screen, settings};

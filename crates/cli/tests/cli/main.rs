@@ -2,10 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on may panic")]
 
-#[cfg(feature = "config")]
-mod config;
 #[cfg(feature = "png")]
 mod compare;
+#[cfg(feature = "config")]
+mod config;
 mod features;
 mod log;
 #[cfg(feature = "manual")]
