@@ -9,7 +9,7 @@ use std::io::{self, Read, Write};
 const MAGIC: [u8; 8] = *b"\x89RADCKP\n";
 
 /// Version of the file and of the solver's state in it.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Writes all of a file: `text` tells what it belongs to, and `state` writes the state.
 pub(super) fn write(
@@ -116,7 +116,7 @@ mod tests {
     #[test]
     fn other_formats_are_told_apart() {
         let newer = parts(&file(FORMAT + 1, b"", b"")).unwrap_err();
-        assert!(newer.contains("format 2, expected 1: a newer program"), "{newer}");
+        assert!(newer.contains("format 3, expected 2: a newer program"), "{newer}");
         assert!(parts(&file(0, b"", b"")).unwrap_err().contains("format 0"));
         assert!(parts(b"\xff\xd8\xff\xe0 JFIF").unwrap_err().contains("no checkpoint"));
         // Right checksum, wrong inside.

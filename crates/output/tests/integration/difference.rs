@@ -37,6 +37,7 @@ fn options() -> Options {
         exposure: Exposure::Scale(0.2),
         size: (SIDE as u32, SIDE as u32),
         samples: 1,
+        ..Options::default()
     }
 }
 
