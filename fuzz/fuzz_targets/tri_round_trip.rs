@@ -26,7 +26,12 @@ fuzz_target!(|records: Vec<Record>| {
     let records: Vec<TriRecord> = records
         .into_iter()
         .filter(|r| finite(&r.vertices) && r.normals.iter().all(finite))
-        .map(|Record { front, back, vertices, normals }| TriRecord { front, back, vertices, normals })
+        .map(|Record { front, back, vertices, normals }| TriRecord {
+            front,
+            back,
+            vertices,
+            normals,
+        })
         .collect();
     let mut writer = Writer::new(Vec::new());
     for record in &records {

@@ -80,9 +80,12 @@ fn no_file_takes_more_than_its_size_justifies() {
     assert!(worst > 0.2, "{worst}");
 }
 
+/// What it tries, its name, and its bytes.
+type File = (&'static str, &'static str, Vec<u8>);
+
 /// Files that ask for as much as they can, small ones and larger ones.
-fn files() -> Vec<(&'static str, &'static str, Vec<u8>)> {
-    let mut files = vec![
+fn files() -> Vec<File> {
+    let plain = vec![
         (
             ".tri records",
             "a.tri",
@@ -93,11 +96,7 @@ fn files() -> Vec<(&'static str, &'static str, Vec<u8>)> {
         ("left out lines", "a.vs3", "X\n".repeat(100_000).into_bytes()),
         ("strips across strips", "a.vs3", strips(60).into_bytes()),
     ];
-    #[cfg(feature = "obj")]
-    files.extend(obj());
-    #[cfg(feature = "gltf")]
-    files.extend(gltf());
-    files
+    [plain, obj(), gltf()].concat()
 }
 
 /// A wall with parts that cut each other: pieces grow with the square of the parts.
@@ -126,8 +125,13 @@ fn strips(count: usize) -> String {
     text
 }
 
+#[cfg(not(feature = "obj"))]
+fn obj() -> Vec<File> {
+    Vec::new()
+}
+
 #[cfg(feature = "obj")]
-fn obj() -> Vec<(&'static str, &'static str, Vec<u8>)> {
+fn obj() -> Vec<File> {
     let name = "n".repeat(50_000);
     let corners = "1 ".repeat(100_000);
     let faces = "f 1 1 1\n".repeat(20_000);
@@ -141,8 +145,13 @@ fn obj() -> Vec<(&'static str, &'static str, Vec<u8>)> {
     ]
 }
 
+#[cfg(not(feature = "gltf"))]
+fn gltf() -> Vec<File> {
+    Vec::new()
+}
+
 #[cfg(feature = "gltf")]
-fn gltf() -> Vec<(&'static str, &'static str, Vec<u8>)> {
+fn gltf() -> Vec<File> {
     /// A document with these members.
     fn json(members: &str) -> Vec<u8> {
         format!(r#"{{"asset":{{"version":"2.0"}},{members}}}"#).into_bytes()
