@@ -223,8 +223,8 @@ fn outputs_begin_as_the_page_says() {
     begins("a.csv", "triangle,area,B_r,B_g,B_b\n");
     begins("F.csv", "i,j,F,error\n");
     begins("F.names.csv", "row,name,area\n");
-    assert!(read("a.probe.csv").starts_with(b"triangle,u,v,area,B_r,B_g,B_b\n"));
-    assert!(page.contains("triangle,u,v[,area],B_r,B_g,B_b"));
+    assert!(read("a.probe.csv").starts_with(b"triangle,u,v,area,B_r,B_g,B_b,E_r,E_g,E_b\n"));
+    assert!(page.contains("triangle,u,v[,area],B_r,B_g,B_b,E_r,E_g,E_b"));
     assert!(read("F.npy").starts_with(b"\x93NUMPY\x01\x00"));
     let archive = read("F.npz");
     for array in ["indices", "indptr", "data", "shape", "format", "error", "area", "name"] {

@@ -146,7 +146,7 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     say_solved(&prepared, &solved, settings);
 
     let clock = Instant::now();
-    let report = |clock: &Instant, outputs: &[String]| {
+    let report = |output_seconds: f64, outputs: &[String]| {
         Report::of(Run {
             file: &file,
             imported: &imported,
@@ -154,7 +154,7 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
             prepared: &prepared,
             solved: &solved,
             read_seconds,
-            output_seconds: clock.elapsed().as_secs_f64(),
+            output_seconds,
             outputs: outputs.to_vec(),
         })
     };
@@ -163,13 +163,13 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
         if *target == Target::Stdout {
             progress.clear();
         }
-        let so_far = || report(&clock, &outputs);
+        let so_far = || report(clock.elapsed().as_secs_f64(), &outputs);
         let written = write(target, &imported, &solved, &places, &options, so_far)?;
         outputs.push(written);
     }
     let output_seconds = clock.elapsed().as_secs_f64();
     if let Some(path) = &settings.report {
-        report(&clock, &outputs).write(path)?;
+        report(output_seconds, &outputs).write(path)?;
         outputs.push(path.display().to_string());
     }
     progress.clear();

@@ -36,7 +36,11 @@ fn a_difference_is_drawn_beside_what_it_is_of() {
         (&["--size", "9x9"], 2, "are for --picture"),
         (&["--picture", "d.jpg", "--scene", "box.tri"], 2, "ends in .png"),
         (&["--picture", "d.png", "--scene", "box.tri", "--range", "0"], 2, "above 0"),
-        (&["--picture", "d.png", "--scene", "box.tri", "--camera", "no"], 2, "the scene has none"),
+        (
+            &["--picture", "d.png", "--scene", "box.tri", "--camera", "no"],
+            2,
+            "the scene has no camera",
+        ),
     ] {
         let (got, said) = compare(flags);
         assert!(got == code && said.contains(message), "{flags:?}: {said}");
