@@ -6,7 +6,7 @@ use std::process::Command;
 use clap::ValueEnum;
 use serde_json::Value;
 
-use crate::{instructions, scenes, tidy};
+use crate::{instructions, package, scenes, tidy};
 
 /// One job of the pipeline.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -27,15 +27,21 @@ pub(crate) enum Job {
     Features,
     /// No kernel takes more instructions than its baseline; skipped without valgrind.
     Instructions,
+    /// The fuzz targets compile; whoever fuzzes needs a nightly compiler and cargo-fuzz besides.
+    Fuzz,
+    /// Each crate can be published: `cargo xtask package`.
+    Package,
+    /// No public interface changed more than its version says; skipped without cargo-semver-checks.
+    Semver,
 }
 
 /// Runs one job, or all of them in the order above: the quick ones first.
-pub(crate) fn run(root: &Path, only: Option<Job>) -> Result<(), String> {
+pub(crate) fn run(root: &Path, only: Option<Job>, baseline: Option<&str>) -> Result<(), String> {
     let jobs = Job::value_variants().iter().filter(|job| only.is_none_or(|only| only == **job));
-    jobs.copied().try_for_each(|job| run_job(root, job))
+    jobs.copied().try_for_each(|job| run_job(root, job, baseline))
 }
 
-fn run_job(root: &Path, job: Job) -> Result<(), String> {
+fn run_job(root: &Path, job: Job, baseline: Option<&str>) -> Result<(), String> {
     match job {
         Job::Fmt => cargo(root, "fmt --all -- --check"),
         Job::Clippy => cargo(root, "clippy --workspace --all-targets --locked -- --deny warnings"),
@@ -48,11 +54,45 @@ fn run_job(root: &Path, job: Job) -> Result<(), String> {
             feature_checks(&metadata(root)?).into_iter().try_for_each(each)
         }
         Job::Instructions => instructions::check(root),
+        Job::Fuzz => cargo(root, "check --manifest-path fuzz/Cargo.toml --all-targets --locked"),
+        Job::Package => package::run(root),
+        Job::Semver => semver(root, baseline),
     }
 }
 
+/// Compares public interfaces with those of a commit, by default of the last tag.
+fn semver(root: &Path, baseline: Option<&str>) -> Result<(), String> {
+    let there = |mut command: Command| command.output().ok().filter(|o| o.status.success());
+    if there(cargo_command(root, "semver-checks --version")).is_none() {
+        println!("semver: skipped, as cargo-semver-checks is not installed");
+        return Ok(());
+    }
+    let last_tag = || {
+        let mut git = Command::new("git");
+        git.current_dir(root).args(["describe", "--tags", "--abbrev=0"]);
+        there(git).map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    let Some(baseline) = baseline.map(str::to_owned).or_else(last_tag) else {
+        println!("semver: skipped, as there is no tag yet; --baseline-rev names another commit");
+        return Ok(());
+    };
+    let metadata = metadata(root)?;
+    let libraries = package::in_order(&metadata)?;
+    let flags = libraries
+        .iter()
+        .filter(|package| has_library(package))
+        .map(|package| format!(" --package {}", package["name"].as_str().unwrap_or_default()));
+    let flags: String = flags.collect();
+    cargo(root, &format!("semver-checks --baseline-rev {baseline}{flags}"))
+}
+
+fn has_library(package: &Value) -> bool {
+    let targets = package["targets"].as_array().into_iter().flatten();
+    targets.flat_map(|target| target["kind"].as_array().into_iter().flatten()).any(|k| k == "lib")
+}
+
 /// Runs cargo with words that contain no blanks, and shows the command first.
-fn cargo(root: &Path, arguments: &str) -> Result<(), String> {
+pub(crate) fn cargo(root: &Path, arguments: &str) -> Result<(), String> {
     println!("$ cargo {arguments}");
     let status = cargo_command(root, arguments)
         // Read by `cargo doc` alone; everywhere else it has no effect.

@@ -6,10 +6,13 @@ mod bench;
 mod built;
 mod ci;
 mod dependencies;
+#[cfg(test)]
+mod examples;
 mod figure;
 mod instructions;
 mod needs;
 mod numerics;
+mod package;
 mod precision;
 mod progress;
 mod scenes;
@@ -32,7 +35,14 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Task {
     /// Run what a change must pass, or one job of it.
-    Ci { job: Option<ci::Job> },
+    Ci {
+        job: Option<ci::Job>,
+        /// With `semver`: the commit to compare with [default: the last tag]
+        #[arg(long, value_name = "REV")]
+        baseline_rev: Option<String>,
+    },
+    /// Package each crate as it would be published, and say what is in it.
+    Package,
     /// Check the house rules: edges between crates, manifests, sources, links.
     Tidy,
     /// Write the bundled scenes into scenes/.
@@ -63,7 +73,8 @@ enum Task {
 fn main() -> ExitCode {
     let root = root();
     let result = match Arguments::parse().task {
-        Task::Ci { job } => ci::run(&root, job),
+        Task::Ci { job, baseline_rev } => ci::run(&root, job, baseline_rev.as_deref()),
+        Task::Package => package::run(&root),
         Task::Tidy => tidy::run(&root),
         Task::Scenes { check: true } => scenes::check(&root.join("scenes")),
         Task::Scenes { check: false } => scenes::write(&root.join("scenes")),

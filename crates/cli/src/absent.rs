@@ -20,12 +20,18 @@ const WORDS: &[(&str, &str)] = &[
     ("completions", "manual"),
     #[cfg(not(feature = "manual"))]
     ("man", "manual"),
-    #[cfg(not(feature = "png"))]
+    #[cfg(not(any(feature = "exr", feature = "png")))]
     ("--camera", "png"),
-    #[cfg(not(feature = "png"))]
+    #[cfg(not(any(feature = "exr", feature = "png")))]
     ("--size", "png"),
     #[cfg(not(feature = "verify"))]
     ("verify", "verify"),
+    #[cfg(not(feature = "html"))]
+    ("view", "html"),
+    #[cfg(not(feature = "live"))]
+    ("--live", "live"),
+    #[cfg(not(feature = "live"))]
+    ("--live-port", "live"),
 ];
 
 /// Refuses what needs a feature that this build lacks.

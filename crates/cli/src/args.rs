@@ -4,12 +4,16 @@ mod checkpoint;
 #[cfg(feature = "form-factors")]
 mod form_factors;
 mod help;
+mod live;
 #[cfg(feature = "manual")]
 mod manual;
 mod picture;
+mod probe_grid;
 mod shooting;
 mod snapshot;
 mod terminal;
+#[cfg(feature = "html")]
+mod view;
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -20,12 +24,16 @@ pub(crate) use checkpoint::CheckpointArgs;
 #[cfg(feature = "form-factors")]
 pub(crate) use form_factors::{BetweenArg, FormFactorsArgs};
 pub(crate) use help::CONVERTED;
+pub(crate) use live::LiveArgs;
 #[cfg(feature = "manual")]
 pub(crate) use manual::{CompletionsArgs, ManArgs};
 pub(crate) use picture::PictureArgs;
+pub(crate) use probe_grid::ProbeGridArgs;
 pub(crate) use shooting::{ShootingArgs, SplitArg};
 pub(crate) use snapshot::Every;
 pub(crate) use terminal::{ColorArg, LogArg, TerminalArgs};
+#[cfg(feature = "html")]
+pub(crate) use view::ViewArgs;
 
 /// Turns a triangle scene into its diffuse global illumination.
 #[cfg_attr(
@@ -57,6 +65,8 @@ pub(crate) enum Command {
     Convert(ConvertArgs),
     /// Measure how far two solutions (.csv) are apart
     Compare(CompareArgs),
+    /// Make places for `solve --probe`: a grid over a floor or a work plane
+    ProbeGrid(ProbeGridArgs),
     /// Check known answers on this machine: closed forms, known solutions, the bundled scenes
     #[cfg(feature = "verify")]
     Verify(VerifyArgs),
@@ -66,6 +76,9 @@ pub(crate) enum Command {
     /// Write manual pages
     #[cfg(feature = "manual")]
     Man(ManArgs),
+    /// Make a page of a lit scene: walk about, ask points, read how wrong the light can be
+    #[cfg(feature = "html")]
+    View(ViewArgs),
 }
 
 /// How a scene file is read.
@@ -84,6 +97,30 @@ pub(crate) struct ReadArgs {
     /// Reflectance of a surface whose front colour is 255 (.tri only)
     #[arg(long, value_name = "X", default_value_t = 0.5)]
     pub(crate) reflect: f64,
+
+    #[command(flatten)]
+    pub(crate) beside: BesideArgs,
+}
+
+/// Which files a scene may name: nothing to say where no format names any.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(crate) struct BesideArgs {
+    /// Read the files that the scene names (buffers, textures, material libraries) wherever they lie;
+    /// else only in its own folder and below. For scenes whose maker you trust
+    #[cfg(any(feature = "obj", feature = "gltf"))]
+    #[arg(long)]
+    allow_outside: bool,
+}
+
+impl BesideArgs {
+    /// Whether files outside the scene's folder are read.
+    pub(crate) fn allow_outside(&self) -> bool {
+        #[cfg(any(feature = "obj", feature = "gltf"))]
+        let allow = self.allow_outside;
+        #[cfg(not(any(feature = "obj", feature = "gltf")))]
+        let allow = false;
+        allow
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -193,9 +230,11 @@ pub(crate) struct SolveArgs {
     #[arg(long, conflicts_with = "error")]
     pub(crate) no_statement: bool,
 
-    /// Places to report the exitance at: a CSV with the columns triangle,u,v (input triangle
-    /// from 0, and barycentric: a + u (b - a) + v (c - a)), written to -o NAME.probe.csv. With a
-    /// column `area`, the mean over the part of the triangle of that area around the place
+    /// Places to report the light at, written to -o NAME.probe.csv: a CSV with the columns
+    /// triangle,u,v (input triangle from 0, and barycentric: a + u (b - a) + v (c - a)), or
+    /// x,y,z,nx,ny,nz for places in the open, which `radiosity probe-grid` makes. With a column
+    /// `area`, the mean over the part of the triangle of that area around the place. Written is the
+    /// exitance of the surface, B, and the irradiance, E: the power that arrives per area
     #[arg(long, value_name = "POINTS.csv")]
     pub(crate) probe: Option<PathBuf>,
 
@@ -210,6 +249,9 @@ pub(crate) struct SolveArgs {
 
     #[command(flatten)]
     pub(crate) keeping: CheckpointArgs,
+
+    #[command(flatten)]
+    pub(crate) live: LiveArgs,
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,

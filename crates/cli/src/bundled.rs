@@ -8,12 +8,20 @@ use scene_import::{Imported, Options};
 use crate::absent;
 use crate::failure::Failure;
 
+/// A scene's bytes: build.rs knows where they lie.
+#[cfg(any(feature = "gltf", feature = "verify"))]
+macro_rules! bytes {
+    ($name:literal) => {
+        include_bytes!(concat!(env!("RADIOSITY_SCENES"), "/", $name))
+    };
+}
+
 /// What the bundled scene is called in messages and reports.
 pub(crate) const NAME: &str = "cornell.glb";
 
 /// The scene that the program solves where none is named, as `cargo xtask scenes` writes it.
 #[cfg(feature = "gltf")]
-const CORNELL: &[u8] = include_bytes!("../../../scenes/cornell.glb");
+const CORNELL: &[u8] = bytes!("cornell.glb");
 
 /// All that this build reads, for `verify`.
 #[cfg(feature = "verify")]
@@ -21,11 +29,11 @@ const FILES: &[(&str, &[u8])] = &[
     #[cfg(feature = "gltf")]
     (NAME, CORNELL),
     #[cfg(feature = "gltf")]
-    ("gallery.glb", include_bytes!("../../../scenes/gallery.glb")),
-    ("room.tri", include_bytes!("../../../scenes/room.tri")),
-    ("blocks.tri", include_bytes!("../../../scenes/blocks.tri")),
-    ("hall.tri", include_bytes!("../../../scenes/hall.tri")),
-    ("church.tri", include_bytes!("../../../scenes/church.tri")),
+    ("gallery.glb", bytes!("gallery.glb")),
+    ("room.tri", bytes!("room.tri")),
+    ("blocks.tri", bytes!("blocks.tri")),
+    ("hall.tri", bytes!("hall.tri")),
+    ("church.tri", bytes!("church.tri")),
 ];
 
 /// Refuses where this build cannot read the bundled scene.

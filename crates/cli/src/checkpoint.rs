@@ -4,6 +4,8 @@
 #[cfg(not(feature = "checkpoint"))]
 mod absent;
 #[cfg(feature = "checkpoint")]
+mod container;
+#[cfg(feature = "checkpoint")]
 mod file;
 #[cfg(feature = "checkpoint")]
 mod identity;

@@ -35,6 +35,12 @@ impl Interrupt {
         interrupt
     }
 
+    /// Says stop, as a first Ctrl-C does; never more than that.
+    #[cfg(feature = "live")]
+    pub(crate) fn raise(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
     /// Whether it was heard.
     pub(crate) fn heard(&self) -> bool {
         self.0.load(Ordering::Relaxed)

@@ -12,7 +12,10 @@ mod commands;
 mod failure;
 mod files;
 mod interrupt;
+mod live;
 mod memory;
+#[cfg(feature = "html")]
+mod page;
 mod pipeline;
 mod prepared;
 mod progress;
@@ -60,11 +63,14 @@ fn run(args: Args) -> Result<(), Failure> {
             settings::form_factors(args).and_then(|s| commands::form_factors::run(&s))
         }
         Some(Command::Compare(args)) => commands::compare::run(&args),
+        Some(Command::ProbeGrid(args)) => commands::probe_grid::run(&args),
         #[cfg(feature = "verify")]
         Some(Command::Verify(args)) => commands::verify::run(&args),
         #[cfg(feature = "manual")]
         Some(Command::Completions(args)) => commands::completions::run(&args),
         #[cfg(feature = "manual")]
         Some(Command::Man(args)) => commands::man::run(&args),
+        #[cfg(feature = "html")]
+        Some(Command::View(args)) => commands::view::run(&args),
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! The figures are upper bounds of the sizes in docs/performance/memory.md.
 
+use output::Format;
 use radiosity_core::Schedule;
 use scene::{Scene, Sides};
 
@@ -26,6 +27,10 @@ const PER_KEPT_ELEMENT: u64 = 320;
 
 /// A copy of an element's light, for a snapshot.
 const PER_COPIED_ELEMENT: u64 = 150;
+
+/// An element of a page, packed.
+#[cfg(feature = "html")]
+const PER_PACKED_ELEMENT: u64 = 80;
 
 /// An element that a picture shows, and a pixel of it.
 const PER_DRAWN_ELEMENT: u64 = 50;
@@ -121,13 +126,25 @@ impl Budget {
     pub(crate) fn of(settings: &Solve, scene: &Scene) -> Option<Self> {
         let limit = settings.limits.memory?;
         let picture = |t: &Target| match t {
-            Target::File(path) => path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")),
-            Target::Stdout | Target::Probes(_) => false,
+            Target::File(path) => {
+                matches!(Format::from_path(path), Ok(Format::Png | Format::Exr))
+            }
+            _ => false,
         };
+        #[cfg(feature = "html")]
+        let paged = settings.outputs.iter().any(|t| matches!(t, Target::Page(_)));
+        #[cfg(feature = "html")]
+        let packed = if paged || settings.live.is_some() { PER_PACKED_ELEMENT } else { 0 };
+        #[cfg(not(feature = "html"))]
+        let packed = 0;
         let (drawn, (width, height)) =
             (settings.outputs.iter().any(picture), settings.picture.size());
         let pixels = u64::from(width) * u64::from(height);
-        let copies = if settings.snapshot.is_some() { PER_COPIED_ELEMENT } else { 0 };
+        let copies = if settings.snapshot.is_some() || settings.live.is_some() {
+            PER_COPIED_ELEMENT
+        } else {
+            0
+        };
         let before = before(scene.triangles().len());
         let level = Level {
             schedule: match settings.shooting.schedule {
@@ -135,7 +152,7 @@ impl Budget {
                 schedule => schedule,
             },
             pieces: sides(scene),
-            per_element: copies + if drawn { PER_DRAWN_ELEMENT } else { 0 },
+            per_element: copies + packed + if drawn { PER_DRAWN_ELEMENT } else { 0 },
             fixed: if drawn { pixels * PER_PIXEL } else { 0 },
         };
         Some(Self { limit, before, level })

@@ -13,6 +13,7 @@ use scene::{Scene, Solution};
 use crate::checkpoint::{self, Identity, Keeper};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::live::Live;
 use crate::memory::{self, Budget};
 use crate::prepared::Prepared;
 use crate::progress::{Foreseen, Progress};
@@ -68,9 +69,12 @@ pub(crate) fn solve(
     settings: &Solve,
     probes: &[Probe],
     snapshots: Option<Snapshots<'_>>,
-    progress: &mut Progress,
+    (progress, live): (&mut Progress, Option<&mut Live<'_>>),
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::listen();
+    if let Some(live) = &live {
+        live.heed(&interrupt);
+    }
     let exchange = settings.read.exchange;
     let how = &settings.shooting;
     let config = ShootingConfig {
@@ -112,6 +116,8 @@ pub(crate) fn solve(
         coarsened: fitting < most,
         keeper: None,
         snapshots,
+        snapshot_due: false,
+        live,
         curve: Vec::new(),
         step: 0,
         refining: matches!(asked, Asked::Error(_)),
@@ -189,7 +195,7 @@ fn fitting(budget: &Budget, asked: Asked) -> Result<usize, Failure> {
 
 /// Looks at the clock and at memory, hears of interrupts, keeps the curve, and writes snapshots and
 /// checkpoints.
-struct Watch<'a> {
+struct Watch<'a, 'b> {
     clock: Instant,
     progress: &'a mut Progress,
     stages: Stages,
@@ -202,20 +208,22 @@ struct Watch<'a> {
     coarsened: bool,
     keeper: Option<Keeper>,
     snapshots: Option<Snapshots<'a>>,
+    snapshot_due: bool,
+    live: Option<&'a mut Live<'b>>,
     curve: Vec<CurvePoint>,
     /// Points of the curve on earlier levels.
     step: usize,
     refining: bool,
 }
 
-impl Watch<'_> {
+impl Watch<'_, '_> {
     /// Whether time is up, or someone said stop.
     fn stopped(&self) -> bool {
         self.interrupt.heard() || self.most.is_some_and(|most| self.clock.elapsed() >= most)
     }
 }
 
-impl Observer for Watch<'_> {
+impl Observer for Watch<'_, '_> {
     fn stage(&mut self, stage: Stage) {
         self.stages.begin(stage);
         self.progress.stage(stage);
@@ -258,11 +266,17 @@ impl Observer for Watch<'_> {
 
     fn wants_solution(&mut self, report: &StepReport) -> bool {
         let elapsed = self.clock.elapsed();
-        self.snapshots.as_ref().is_some_and(|snapshots| snapshots.due(report, elapsed))
+        let snapshots = self.snapshots.as_ref();
+        self.snapshot_due = snapshots.is_some_and(|snapshots| snapshots.due(report, elapsed));
+        let watched = self.live.as_ref().is_some_and(|live| live.wants());
+        self.snapshot_due || watched
     }
 
     fn solution(&mut self, report: &StepReport, _: &Mesh, solution: &Solution) {
-        if let Some(snapshots) = &mut self.snapshots {
+        if let Some(live) = &mut self.live {
+            live.show(report, solution);
+        }
+        if let Some(snapshots) = self.snapshots.as_mut().filter(|_| self.snapshot_due) {
             snapshots.take(report, solution, || self.clock.elapsed());
         }
     }

@@ -21,7 +21,7 @@ use error::ErrorFacts;
 use plan::PlanFacts;
 
 /// Version of the fields and their meaning.
-const SCHEMA: u32 = 2;
+pub(crate) const SCHEMA: u32 = 2;
 
 #[derive(Serialize)]
 pub(crate) struct Report {
@@ -324,6 +324,18 @@ impl Report {
             snapshots: solved.snapshots.iter().map(SnapshotFacts::of).collect(),
             outputs: run.outputs,
         }
+    }
+
+    /// The name of the scene's file.
+    #[cfg(feature = "html")]
+    pub(crate) fn file(&self) -> &str {
+        &self.scene.file
+    }
+
+    /// The report as what is written of it.
+    #[cfg(feature = "html")]
+    pub(crate) fn value(&self) -> serde_json::Value {
+        serde_json::to_value(self).expect("all fields have names and are numbers or text")
     }
 
     /// Writes the report, all of it or not at all.

@@ -27,6 +27,9 @@ pub(crate) use keeping::Keeping;
 /// Elements asked for when the command line does not say.
 const DEFAULT_ELEMENTS: usize = 10_000;
 
+/// What is written beside the formats of `output`.
+const PAGES: &str = if cfg!(feature = "html") { ", or .html" } else { "" };
+
 /// Ids are 32 bits wide, and a forest has up to two nodes per element.
 pub(crate) const MOST_ELEMENTS: usize = 1 << 30;
 
@@ -40,6 +43,8 @@ pub(crate) struct Solve {
     pub(crate) probe: Option<PathBuf>,
     /// How often the light on its way is written, too.
     pub(crate) snapshot: Option<Every>,
+    /// The port that the solve can be watched on, 0 for any.
+    pub(crate) live: Option<u16>,
     pub(crate) keeping: Keeping,
     pub(crate) goal: Goal,
     pub(crate) limits: Limits,
@@ -58,6 +63,16 @@ pub(crate) enum Target {
     File(PathBuf),
     /// A table of the probes.
     Probes(PathBuf),
+    /// A page to look at the light.
+    #[cfg(feature = "html")]
+    Page(PathBuf),
+}
+
+impl Target {
+    /// Whether it is a GLB.
+    pub(crate) fn is_glb(&self) -> bool {
+        matches!(self, Self::File(path) if Format::from_path(path).ok() == Some(Format::Glb))
+    }
 }
 
 /// How finely, with what, on how many threads.
@@ -98,10 +113,7 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
         let message = "nothing to write: name at least one file with -o, such as -o lit.glb";
         return Err(Failure::Usage(message.into()));
     }
-    if !args.picture.exposure.is_finite() || args.picture.exposure.abs() > 64.0 {
-        let message = "--exposure: expected a number of stops from -64 to 64";
-        return Err(Failure::Usage(message.into()));
-    }
+    check_exposure(args.picture.exposure)?;
     if outputs.iter().filter(|t| **t == Target::Stdout).count() > 1 {
         return Err(Failure::Usage(
             "-o -: stdout takes one table, and is named twice; leave one out".into(),
@@ -150,6 +162,7 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
         report: args.report,
         probe: args.probe,
         snapshot: args.snapshot,
+        live: args.live.port(),
         keeping: keeping::keeping(args.keeping)?,
         goal,
         limits: Limits {
@@ -162,6 +175,14 @@ pub(crate) fn solve(args: SolveArgs) -> Result<Solve, Failure> {
         read: read(&args.read)?,
         picture: args.picture,
     })
+}
+
+/// Refuses more stops than mean anything.
+pub(crate) fn check_exposure(stops: f64) -> Result<(), Failure> {
+    if stops.is_finite() && stops.abs() <= 64.0 {
+        return Ok(());
+    }
+    Err(Failure::Usage("--exposure: expected a number of stops from -64 to 64".into()))
 }
 
 /// Refuses a report that is not named as one, unless it goes to a device.
@@ -257,7 +278,13 @@ pub(crate) fn read(args: &ReadArgs) -> Result<Read, Failure> {
         SidesArg::Both => (SidesRule::Both, Exchange::OneSided),
         SidesArg::Paired => (SidesRule::Front, Exchange::Paired),
     };
-    let options = scene_import::Options { tri_light: args.light, tri_reflect: args.reflect, sides };
+    let options = scene_import::Options {
+        tri_light: args.light,
+        tri_reflect: args.reflect,
+        sides,
+        keep_document: false,
+        allow_outside: args.beside.allow_outside(),
+    };
     Ok(Read { options, exchange })
 }
 
@@ -268,8 +295,15 @@ fn target(path: PathBuf) -> Result<Target, Failure> {
     if path.to_string_lossy().to_ascii_lowercase().ends_with(".probe.csv") {
         return Ok(Target::Probes(path));
     }
-    Format::from_path(&path)
-        .map_err(|e| absent::format(&e).unwrap_or_else(|| Failure::Usage(format!("-o {e}"))))?;
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("html")) {
+        #[cfg(feature = "html")]
+        return Ok(Target::Page(path));
+        #[cfg(not(feature = "html"))]
+        return Err(absent::refused(&path.display().to_string(), "html"));
+    }
+    Format::from_path(&path).map_err(|e| {
+        absent::format(&e).unwrap_or_else(|| Failure::Usage(format!("-o {e}{PAGES}")))
+    })?;
     Ok(Target::File(path))
 }
 
@@ -377,6 +411,9 @@ mod tests {
             "-o a.csv --checkpoint a.ckpt --every 0",
             "-o a.csv --checkpoint -",
             "-o a.csv --resume -",
+            "-o a.csv --live-port 80",
+            "-o a.csv --live --live-port 99999",
+            "--live",
         ] {
             assert!(matches!(resolve(line), Err(Failure::Usage(_))), "{line}");
         }

@@ -50,6 +50,8 @@ impl<'a> Snapshots<'a> {
         let path = |target: &'a Target| match target {
             Target::File(path) => Some(path.as_path()),
             Target::Stdout | Target::Probes(_) => None,
+            #[cfg(feature = "html")]
+            Target::Page(_) => None,
         };
         let targets: Vec<_> = settings.outputs.iter().filter_map(path).collect();
         let report = settings.report.as_deref();

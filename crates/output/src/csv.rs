@@ -4,7 +4,7 @@ mod places;
 mod read;
 mod write;
 
-pub use places::{Place, read_places, write_places};
+pub use places::{FreePlace, Place, Places, read_places, write_places, write_probes};
 pub use read::read;
 pub use write::{rows, write};
 

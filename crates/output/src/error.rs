@@ -46,6 +46,8 @@ pub enum ErrorKind {
     Option(&'static str),
     /// More than the format can count.
     TooLarge(&'static str),
+    /// A glTF document that light cannot be put into: where, and what was expected.
+    Document(String),
     /// Text that is not the expected CSV.
     Text {
         /// Line, from 1.
@@ -161,10 +163,10 @@ impl fmt::Display for ErrorKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownExtension(None) => {
-                write!(f, "no file name extension, expected {}", Format::EXTENSIONS)
+                write!(f, "no file name extension, expected {}", Format::extensions())
             }
             Self::UnknownExtension(Some(e)) => {
-                write!(f, "unknown file name extension \".{e}\", expected {}", Format::EXTENSIONS)
+                write!(f, "unknown file name extension \".{e}\", expected {}", Format::extensions())
             }
             Self::FeatureOff(name) => write!(
                 f,
@@ -187,6 +189,7 @@ impl fmt::Display for ErrorKind {
             ),
             Self::Option(range) => write!(f, "expected {range}"),
             Self::TooLarge(what) => write!(f, "too large for the format: {what}"),
+            Self::Document(what) => write!(f, "the scene's glTF document: {what}"),
             Self::Text { line, column, message } => write!(f, "{line}:{column}: {message}"),
             Self::RowCount { ours, reference } => {
                 write!(f, "{ours} rows against {reference} in the reference")

@@ -8,9 +8,9 @@ use scene::{Scene, Solution};
 use crate::check::{Width, check};
 #[cfg(feature = "glb")]
 use crate::glb;
-#[cfg(feature = "png")]
+#[cfg(any(feature = "exr", feature = "png"))]
 use crate::picture;
-use crate::{Error, Format, Options, csv, ply, tri};
+use crate::{Error, Format, Options, csv, ply, tri, vtu};
 
 /// A file that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,21 +54,26 @@ pub fn write(
     options.check()?;
     let width = match format {
         Format::Csv | Format::Tri => Width::Double,
-        Format::Ply | Format::Glb | Format::Png => Width::Single,
+        Format::Ply | Format::Vtu | Format::Glb | Format::Png | Format::Exr => Width::Single,
     };
     check(scene, solution, width)?;
     match format {
         Format::Csv => csv::write(out, scene, solution),
         Format::Tri => tri::write(out, scene, solution),
         Format::Ply => ply::write(out, scene, solution, options.exposure),
+        Format::Vtu => vtu::write(out, scene, solution),
         #[cfg(feature = "glb")]
-        Format::Glb => glb::write(out, scene, solution, options.exposure),
+        Format::Glb => glb::write(out, scene, solution, options),
         #[cfg(not(feature = "glb"))]
         Format::Glb => format.check(),
         #[cfg(feature = "png")]
-        Format::Png => picture::write(out, scene, solution, options),
+        Format::Png => picture::write_png(out, scene, solution, options),
         #[cfg(not(feature = "png"))]
         Format::Png => format.check(),
+        #[cfg(feature = "exr")]
+        Format::Exr => picture::write_exr(out, scene, solution, options),
+        #[cfg(not(feature = "exr"))]
+        Format::Exr => format.check(),
     }
 }
 

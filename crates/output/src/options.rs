@@ -1,6 +1,8 @@
 //! What a caller may choose about the outputs.
 
-use scene::Camera;
+use std::sync::Arc;
+
+use scene::{Camera, Document};
 
 use crate::{Error, ErrorKind, Exposure};
 
@@ -21,11 +23,20 @@ pub struct Options {
     pub size: (u32, u32),
     /// Samples along each side of a pixel, in 1..=16.
     pub samples: u32,
+    /// The glTF document that the scene was read from: a GLB is then that document, lit. Without
+    /// it a GLB has a node for each group.
+    pub document: Option<Arc<Document>>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { camera: None, exposure: Exposure::Auto, size: (1024, 768), samples: 3 }
+        Self {
+            camera: None,
+            exposure: Exposure::Auto,
+            size: (1024, 768),
+            samples: 3,
+            document: None,
+        }
     }
 }
 

@@ -6,10 +6,12 @@
 //! one-sided walls sees into it.
 
 mod draw;
+#[cfg(feature = "exr")]
+mod exr;
+#[cfg(feature = "png")]
+mod png;
 mod raster;
 mod view;
-
-use std::io::Write;
 
 use scene::{Camera, Rgb, Scene, Solution};
 
@@ -18,6 +20,10 @@ use crate::options::check_picture;
 use crate::tone::{BACKGROUND, Exposure, Reading, curve, srgb_byte};
 use crate::{Error, Options, camera};
 
+#[cfg(feature = "exr")]
+pub(crate) use exr::write as write_exr;
+#[cfg(feature = "png")]
+pub(crate) use png::write as write_png;
 pub(crate) use raster::ScreenTriangle;
 pub(crate) use view::View;
 
@@ -140,29 +146,9 @@ impl Pixel {
     }
 }
 
-/// Draws and writes a PNG.
-pub(crate) fn write(
-    out: &mut dyn Write,
-    scene: &Scene,
-    solution: &Solution,
-    options: &Options,
-) -> Result<(), Error> {
+/// Draws through the camera of the options, or the scene's first, or one found for it.
+fn draw_with(scene: &Scene, solution: &Solution, options: &Options) -> Result<Picture, Error> {
     let chosen = options.camera.as_ref().or(scene.cameras().first());
     let camera = chosen.cloned().unwrap_or_else(|| camera::automatic(scene));
-    let picture = render(scene, solution, &camera, options.size, options.samples)?;
-    let bytes = picture.to_srgb(picture.scale(options.exposure));
-    let mut encoder = png::Encoder::new(out, picture.width, picture.height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let encode = || {
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&bytes)?;
-        writer.finish()
-    };
-    encode().map_err(|error| match error {
-        // The sink's own words, without the encoder's around them.
-        png::EncodingError::IoError(cause) => Error::write(cause),
-        other => Error::write(other),
-    })
+    render(scene, solution, &camera, options.size, options.samples)
 }

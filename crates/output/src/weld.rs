@@ -22,6 +22,8 @@ pub(crate) struct Corner {
     pub(crate) light: [f32; 3],
     /// Zero where the format has none.
     pub(crate) normal: [f32; 3],
+    /// Zero where vertices may be shared between materials.
+    pub(crate) material: u32,
 }
 
 /// Vertices without repetition, and the corners of the faces.
@@ -32,7 +34,7 @@ pub(crate) struct Welded {
     known: HashMap<Key, u32>,
 }
 
-type Key = ([u64; 3], [u32; 3], [u32; 3]);
+type Key = ([u64; 3], [u32; 3], [u32; 3], u32);
 
 impl Welded {
     /// Adds a face; exitance differs across a crease, so a position may come several times.
@@ -55,7 +57,7 @@ fn key(corner: &Corner) -> Key {
     // Adding 0 makes the two zeros one.
     let narrow = |v: [f32; 3]| v.map(|c| (c + 0.0).to_bits());
     let position = corner.position.to_array().map(|c| (c + 0.0).to_bits());
-    (position, narrow(corner.light), narrow(corner.normal))
+    (position, narrow(corner.light), narrow(corner.normal), corner.material)
 }
 
 /// The corners of an element, all with one normal.
@@ -69,6 +71,7 @@ pub(crate) fn corners(
         position: positions[i],
         light: element.corner_exitance[i].0.map(|c| c as f32),
         normal,
+        material: 0,
     })
 }
 

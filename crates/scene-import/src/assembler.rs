@@ -6,6 +6,7 @@ use std::fmt::Display;
 use glam::DVec3;
 use scene::{GroupId, Material, MaterialId, SceneBuilder, Sides, TriangleId, VertexId};
 
+use crate::shortened::shortened;
 use crate::{
     Diagnostic, DiagnosticKind, Error, ErrorKind, Format, Imported, SidesRule, Summary, lint, range,
 };
@@ -18,6 +19,11 @@ pub(crate) const MISSING_REFLECTANCE: scene::Rgb = scene::Rgb::splat(0.5);
 /// the stated one, and as far again, as the mean of a texture is rounded as well.
 const ROUNDING: f64 = 2.0 * range::ROUNDING;
 
+/// Bytes of names any file may have in its scene, and for each of its own bytes. A name stands once
+/// in a file, but instances and the materials of textured triangles have it each.
+const FREE_NAME_BYTES: usize = 1 << 22;
+const NAME_BYTES_PER_BYTE: usize = 64;
+
 /// A scene in the making.
 pub(crate) struct Assembler<'a> {
     file: &'a str,
@@ -27,6 +33,8 @@ pub(crate) struct Assembler<'a> {
     vertices: HashMap<[u64; 3], VertexId>,
     materials: HashMap<MaterialKey, MaterialId>,
     groups: HashMap<String, GroupId>,
+    /// How many bytes of names may still come.
+    names: usize,
     triangles: usize,
     collapsed: Vec<TriangleId>,
     diagnostics: Vec<Diagnostic>,
@@ -36,8 +44,8 @@ pub(crate) struct Assembler<'a> {
 type MaterialKey = (String, [u64; 6], Sides);
 
 impl<'a> Assembler<'a> {
-    /// An empty scene read from `file`.
-    pub(crate) fn new(file: &'a str, sides: SidesRule) -> Self {
+    /// An empty scene read from `file`, which is with its buffers this many bytes long.
+    pub(crate) fn new(file: &'a str, sides: SidesRule, bytes: usize) -> Self {
         Self {
             file,
             sides,
@@ -45,6 +53,7 @@ impl<'a> Assembler<'a> {
             vertices: HashMap::new(),
             materials: HashMap::new(),
             groups: HashMap::new(),
+            names: NAME_BYTES_PER_BYTE.saturating_mul(bytes).saturating_add(FREE_NAME_BYTES),
             triangles: 0,
             collapsed: Vec::new(),
             diagnostics: Vec::new(),
@@ -75,6 +84,7 @@ impl<'a> Assembler<'a> {
         if let Some(&id) = self.materials.get(&key) {
             return Ok(id);
         }
+        self.named(&stated.name)?;
         let mut material = stated;
         material.sides = self.sides.decide(material.sides);
         self.settle_reflectance(&mut material, place);
@@ -106,29 +116,41 @@ impl<'a> Assembler<'a> {
         } else {
             return;
         };
-        self.warn(kind, None, format!("{place}: material {}", material.name));
+        self.warn(kind, None, format!("{place}: material {}", shortened(&material.name)));
         material.reflectance = settled;
     }
 
     /// A new group, even where another has the same name.
-    pub(crate) fn new_group(&mut self, name: &str) -> GroupId {
-        self.builder.group(name)
+    pub(crate) fn new_group(&mut self, name: &str) -> Result<GroupId, Error> {
+        self.named(name)?;
+        Ok(self.builder.group(name))
     }
 
     /// The group of this name, added when it is first asked for.
-    pub(crate) fn group(&mut self, name: &str) -> GroupId {
+    pub(crate) fn group(&mut self, name: &str) -> Result<GroupId, Error> {
         if let Some(&id) = self.groups.get(name) {
-            return id;
+            return Ok(id);
         }
-        let id = self.builder.group(name);
+        let id = self.new_group(name)?;
         self.groups.insert(name.to_owned(), id);
-        id
+        Ok(id)
     }
 
     /// Adds a camera.
     #[cfg(feature = "gltf")]
-    pub(crate) fn camera(&mut self, camera: scene::Camera) {
+    pub(crate) fn camera(&mut self, camera: scene::Camera) -> Result<(), Error> {
+        self.named(&camera.name)?;
         self.builder.camera(camera);
+        Ok(())
+    }
+
+    /// Takes a name from the allowance.
+    fn named(&mut self, name: &str) -> Result<(), Error> {
+        self.names = self.names.checked_sub(name.len()).ok_or_else(|| {
+            let message = "expected names that the file's size can justify";
+            Error::new(ErrorKind::TooLarge, self.file, message)
+        })?;
+        Ok(())
     }
 
     /// Adds a triangle. One that arithmetic, such as the transform of a node, has given a
@@ -183,6 +205,6 @@ impl<'a> Assembler<'a> {
         // A stable sort keeps the order in which one triangle's warnings were found.
         diagnostics.sort_by_key(|d| d.triangle);
         let summary = Summary::of(&scene, format);
-        Imported { scene, diagnostics, summary }
+        Imported { scene, diagnostics, summary, document: None }
     }
 }

@@ -4,6 +4,8 @@ use std::fmt;
 
 use scene::{Rgb, Sides, TriangleId};
 
+use crate::shortened::OneLine;
+
 /// A warning about one place of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
@@ -94,7 +96,7 @@ pub enum DiagnosticKind {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.kind)
+        write!(f, "{}: {}", OneLine(&self.place), OneLine(&self.kind.to_string()))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use scene::Scene;
+use scene::{Document, Scene};
 
 use crate::Diagnostic;
 
@@ -15,6 +15,8 @@ pub struct Imported {
     pub diagnostics: Vec<Diagnostic>,
     /// What the file held, in numbers.
     pub summary: Summary,
+    /// The glTF document, where there is one and [`Options`](crate::Options) keep it.
+    pub document: Option<Document>,
 }
 
 /// What a file held, in numbers; Display is one line.

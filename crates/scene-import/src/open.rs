@@ -47,7 +47,7 @@ pub fn open_bytes(name: &str, bytes: &[u8], options: &Options) -> Result<Importe
     read(format_of(name)?, &Source { name, bytes, folder: None }, options)
 }
 
-fn format_of(name: &str) -> Result<Format, Error> {
+pub(crate) fn format_of(name: &str) -> Result<Format, Error> {
     let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy();
     match extension.to_ascii_lowercase().as_str() {
         "tri" => Ok(Format::Tri),
@@ -80,7 +80,7 @@ fn read(format: Format, source: &Source<'_>, options: &Options) -> Result<Import
 
 /// What a file needs that this build lacks.
 #[cfg(not(all(feature = "obj", feature = "gltf")))]
-fn left_out(feature: &str, source: &Source<'_>, format: Format) -> Error {
+pub(crate) fn left_out(feature: &str, source: &Source<'_>, format: Format) -> Error {
     let message =
         format!("this program was built without the feature `{feature}`: it reads no {format}");
     Error::new(ErrorKind::FeatureOff, source.name, message)

@@ -11,11 +11,23 @@ pub struct Options {
     pub tri_reflect: f64,
     /// Which sides of the surfaces take part.
     pub sides: SidesRule,
+    /// Whether the scene's glTF document is handed out beside it, as
+    /// [`Imported::document`](crate::Imported::document).
+    pub keep_document: bool,
+    /// Whether the files that a scene names may lie outside its folder; not by default, as a scene
+    /// may come from anywhere.
+    pub allow_outside: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { tri_light: 1.0, tri_reflect: 0.5, sides: SidesRule::Scene }
+        Self {
+            tri_light: 1.0,
+            tri_reflect: 0.5,
+            sides: SidesRule::Scene,
+            keep_document: false,
+            allow_outside: false,
+        }
     }
 }
 

@@ -7,9 +7,16 @@ use scene::Rgb;
 
 use crate::units::Decoding;
 
-/// Most texels that all textures of a scene may have together: 400 MB of RGB. A PNG of a
-/// few kilobytes can unpack to as much.
+/// Most texels that all textures of a scene may have together: 400 MB of RGB.
 const MAX_TEXELS: u64 = 1 << 27;
+
+/// Texels any scene may have, besides those that its bytes justify: a picture of 1024 × 1024.
+const FREE_TEXELS: u64 = 1 << 20;
+
+/// Texels that a byte of the scene justifies. The fullest PNG has a byte for 1032 of its own
+/// (deflate), and so of one colour a byte for some 350 texels of RGB; JPEG and pictures with
+/// something on them have far less. More would be header without a picture.
+const TEXELS_PER_BYTE: u64 = 1 << 10;
 
 /// Memory a decoder may use for one image, several times its RGB bytes for 16-bit RGBA.
 const MAX_DECODER_BYTES: u64 = 1 << 30;
@@ -29,7 +36,8 @@ const MAX_SAMPLES: u64 = 1 << 28;
 pub(crate) struct Texture {
     width: i64,
     height: i64,
-    texels: Vec<[u8; 3]>,
+    /// Three bytes each.
+    texels: Vec<u8>,
 }
 
 /// What lies outside the unit square of texture coordinates.
@@ -44,20 +52,38 @@ pub(crate) enum Wrap {
     Clamp,
 }
 
-/// How many texels the images still to come may have.
+/// How many texels the images of a scene have so far.
 pub(crate) struct TexelBudget(u64);
 
 impl TexelBudget {
-    /// The allowance of one scene.
+    /// None so far.
     pub(crate) fn new() -> Self {
-        Self(MAX_TEXELS)
+        Self(0)
+    }
+
+    /// Adds the texels of an image to a scene of which `behind` bytes were read so far.
+    fn take(&mut self, texels: u64, behind: usize) -> Result<(), String> {
+        let justified = TEXELS_PER_BYTE.saturating_mul(behind as u64).saturating_add(FREE_TEXELS);
+        self.0 = self.0.saturating_add(texels);
+        if self.0 > MAX_TEXELS {
+            Err(format!("all textures together have more than {MAX_TEXELS} texels"))
+        } else if self.0 > justified {
+            Err("it has more texels than the size of its file can justify".to_owned())
+        } else {
+            Ok(())
+        }
     }
 }
 
 impl Texture {
     /// Decodes a PNG or JPEG; the error is half a sentence. Alpha is dropped, and 16-bit
-    /// channels are rounded to 8.
-    pub(crate) fn decode(bytes: &[u8], budget: &mut TexelBudget) -> Result<Self, String> {
+    /// channels are rounded to 8. Of the scene `behind` bytes were read so far, this image's
+    /// included.
+    pub(crate) fn decode(
+        bytes: &[u8],
+        behind: usize,
+        budget: &mut TexelBudget,
+    ) -> Result<Self, String> {
         let reader = || {
             let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
             let mut limits = Limits::default();
@@ -68,24 +94,22 @@ impl Texture {
         let failed = |cause: image::ImageError| cause.to_string();
         let (width, height) =
             reader().map_err(|cause| cause.to_string())?.into_dimensions().map_err(failed)?;
-        budget.0 = budget
-            .0
-            .checked_sub(u64::from(width) * u64::from(height))
-            .ok_or_else(|| format!("all textures together have more than {MAX_TEXELS} texels"))?;
+        budget.take(u64::from(width) * u64::from(height), behind)?;
         let image =
             reader().map_err(|cause| cause.to_string())?.decode().map_err(failed)?.into_rgb8();
         if image.is_empty() {
             return Err("it has no texels".to_owned());
         }
-        let texels = image.pixels().map(|pixel| pixel.0).collect();
-        Ok(Self { width: i64::from(width), height: i64::from(height), texels })
+        let (width, height) = (i64::from(width), i64::from(height));
+        Ok(Self { width, height, texels: image.into_raw() })
     }
 
     /// The linear colour of the texel at `uv`, v counted downwards from the top.
     pub(crate) fn at(&self, [u, v]: [f64; 2], wrap: [Wrap; 2], decoding: &Decoding) -> Rgb {
         let x = wrap[0].texel(u, self.width);
         let y = wrap[1].texel(v, self.height);
-        decoding.decode(self.texels[(y * self.width + x) as usize])
+        let at = 3 * (y * self.width + x) as usize;
+        decoding.decode([self.texels[at], self.texels[at + 1], self.texels[at + 2]])
     }
 
     /// The longest edge of a footprint, in texels.
@@ -161,7 +185,7 @@ mod tests {
 
     fn checker() -> Texture {
         let (white, black) = ([255; 3], [0; 3]);
-        Texture { width: 2, height: 2, texels: vec![white, black, black, white] }
+        Texture { width: 2, height: 2, texels: [white, black, black, white].concat() }
     }
 
     fn mean(texture: &Texture, footprint: [[f64; 2]; 3], wrap: Wrap) -> f64 {

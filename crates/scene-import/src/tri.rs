@@ -12,9 +12,9 @@ use crate::{DiagnosticKind, Error, ErrorKind, Format, Imported, Options, units};
 
 /// Reads a .tri scene: one group, named after the file.
 pub(crate) fn read(source: &Source<'_>, options: &Options) -> Result<Imported, Error> {
-    let mut assembler = Assembler::new(source.name, options.sides);
+    let mut assembler = Assembler::new(source.name, options.sides, source.bytes.len());
     let stem = Path::new(source.name).file_stem().unwrap_or_default().to_string_lossy();
-    let group = assembler.group(&stem);
+    let group = assembler.group(&stem)?;
     let mut lines = Vec::new();
     let mut reader = Reader::new(source.bytes);
     while let Some(record) = reader.next() {

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod camera;
+mod document;
 mod error;
 mod ids;
 mod material;
@@ -10,6 +11,7 @@ mod scene;
 mod solution;
 
 pub use camera::Camera;
+pub use document::{Document, Shape};
 pub use error::{Error, ErrorKind};
 pub use ids::{GroupId, MaterialId, TriangleId, VertexId};
 pub use material::{Material, Sides};

@@ -40,11 +40,12 @@ const BELOW_THE_PROGRAM: &[&str] = &[
     "radiosity-core",
     "radiosity-par",
     "output",
+    "viewer",
     "conformance",
 ];
 
 /// Every member, from the bottom up.
-const RULES: [Rule; 13] = [
+const RULES: [Rule; 14] = [
     Rule { member: "tri-io", normal: &[], dev: &[] },
     Rule { member: "scene", normal: &[], dev: &[] },
     Rule { member: "accel", normal: &[], dev: &[] },
@@ -54,6 +55,7 @@ const RULES: [Rule; 13] = [
     Rule { member: "radiosity-core", normal: &["accel", "form-factor", "scene"], dev: &[] },
     Rule { member: "radiosity-par", normal: &["radiosity-core"], dev: &["accel", "scene"] },
     Rule { member: "output", normal: &["scene", "tri-io"], dev: &[] },
+    Rule { member: "viewer", normal: &["scene"], dev: &["output"] },
     Rule { member: "kernel-bench", normal: COUNTED, dev: &[] },
     Rule { member: "conformance", normal: BELOW_THE_CASES, dev: &[] },
     Rule { member: "cli", normal: BELOW_THE_PROGRAM, dev: &[] },

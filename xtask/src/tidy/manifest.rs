@@ -3,7 +3,7 @@
 use super::Complaint;
 
 /// What every member takes over from the workspace.
-const INHERITED: [&str; 5] = ["version", "edition", "rust-version", "license", "publish"];
+const INHERITED: [&str; 4] = ["version", "edition", "rust-version", "license"];
 
 /// For whom a dependency is built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +33,12 @@ pub(super) fn check(file: &str, text: &str) -> Vec<Complaint> {
         if !has("package", &format!("{key}.workspace = true")) {
             complaints.push(format!("{file}: [package] needs `{key}.workspace = true`"));
         }
+    }
+    // A crate is published like the others, or says that it is not.
+    if !has("package", "publish.workspace = true") && !has("package", "publish = false") {
+        complaints.push(format!(
+            "{file}: [package] needs `publish.workspace = true` or `publish = false`"
+        ));
     }
     if !has("lints", "workspace = true") {
         complaints.push(format!("{file}: [lints] needs `workspace = true`"));

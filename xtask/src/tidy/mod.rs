@@ -3,6 +3,7 @@
 //! The same checks run as tests of this crate, so nobody has to remember the command.
 
 mod edges;
+mod formats;
 mod links;
 mod manifest;
 mod sources;
@@ -29,6 +30,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
             _ => {}
         }
     }
+    complaints.extend(formats::check(root));
     for folder in members(root).map_err(|e| format!("{}: {e}", root.display()))? {
         let path = folder.join("Cargo.toml");
         let name = path.strip_prefix(root).unwrap_or(&path).display().to_string();
@@ -40,6 +42,12 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
         }
     }
     if complaints.is_empty() { Ok(()) } else { Err(complaints.join("\n")) }
+}
+
+/// What a manifest depends on, by name, for tests too.
+#[cfg(test)]
+pub(crate) fn dependencies_of(manifest: &str) -> Vec<String> {
+    manifest::dependencies(manifest).into_iter().map(|dependency| dependency.name).collect()
 }
 
 /// The folders of the workspace's members: each of crates/, and xtask.
@@ -61,7 +69,8 @@ fn files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let made = name.starts_with('.') || name.starts_with("target") || name == "out";
+        let made = name.starts_with('.') || name.starts_with("target");
+        let made = made || name == "out" || name == "node_modules";
         if path.is_dir() && !made {
             found.extend(files(&path)?);
         } else if path.is_file() {

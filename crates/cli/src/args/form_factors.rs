@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 
-use super::{SidesArg, help, share};
+use super::{BesideArgs, SidesArg, help, share};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -58,6 +58,9 @@ pub(crate) struct FormFactorsArgs {
     /// sides
     #[arg(long, value_enum, default_value_t = SidesArg::Scene, hide_possible_values = true)]
     pub(crate) sides: SidesArg,
+
+    #[command(flatten)]
+    pub(crate) beside: BesideArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

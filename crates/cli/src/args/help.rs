@@ -31,8 +31,9 @@ fn lines(all: &[(bool, &str)]) -> String {
 
 /// Below the flags of `solve`.
 pub(super) fn solve() -> String {
-    let (glb, png) = (cfg!(feature = "gltf"), cfg!(feature = "png"));
+    let (glb, png, exr) = (cfg!(feature = "gltf"), cfg!(feature = "png"), cfg!(feature = "exr"));
     let checkpoint = cfg!(feature = "checkpoint");
+    let html = cfg!(feature = "html");
     let solve = lines(&[
         (true, "Examples:"),
         (
@@ -50,6 +51,10 @@ pub(super) fn solve() -> String {
         (true, "  radiosity solve room.tri --elements 50000 --converge 0.01% -o fixed.csv"),
         (true, "  radiosity solve room.tri --probe points.csv -o at-points.probe.csv"),
         (true, "  radiosity solve hall.tri --max-memory 2GB --snapshot 30s -o hall.ply"),
+        (
+            cfg!(feature = "live"),
+            "  radiosity solve hall.tri -o hall.html --live               watch it in a browser",
+        ),
         (checkpoint, "  radiosity solve hall.tri --error 0.1% -o hall.ply --checkpoint hall.ckpt"),
         (
             checkpoint,
@@ -64,8 +69,11 @@ pub(super) fn solve() -> String {
         (true, "  .tri  the elements, exitance as colours 0-255"),
         (true, "  .ply  elements with float exitance"),
         (glb, "  .glb  vertex colours and linear _RADIOSITY"),
+        (true, "  .vtu  the elements with light and surface, for ParaView"),
         (png, "  .png  a picture"),
-        (true, "  .probe.csv  exitance at the places of --probe"),
+        (exr, "  .exr  a picture in linear, unclamped exitance"),
+        (html, "  .html  a page to walk about in, with the report; needs no network"),
+        (true, "  .probe.csv  exitance and irradiance at the places of --probe"),
         (true, ""),
     ]);
     solve + "Exit codes: 0 done, or stopped by a limit or Ctrl-C; 1 failed, 2 wrong command line."
@@ -92,7 +100,9 @@ mod tests {
         for (word, on) in [
             ("glb", cfg!(feature = "gltf")),
             ("png", cfg!(feature = "png")),
+            ("exr", cfg!(feature = "exr")),
             ("checkpoint", cfg!(feature = "checkpoint")),
+            ("html", cfg!(feature = "html")),
         ] {
             assert_eq!(solve().contains(word), on, "{word}");
         }

@@ -3,22 +3,23 @@
 /// The size of a picture, if the command line does not say.
 const SIZE: (u32, u32) = (1024, 768);
 
-/// How .png, and the colours in .ply and .glb, look.
+/// How pictures, and the colours in .ply and .glb, look.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Pictures")]
 pub(crate) struct PictureArgs {
     /// Camera of the scene to look through, by name [default: the first, or one chosen to
     /// see most of the scene]
-    #[cfg(feature = "png")]
+    #[cfg(any(feature = "exr", feature = "png"))]
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
 
     /// Picture size in pixels [default: 1024x768]
-    #[cfg(feature = "png")]
+    #[cfg(any(feature = "exr", feature = "png"))]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<(u32, u32)>,
 
-    /// Brighten by this many stops (doublings), relative to the automatic exposure
+    /// Brighten by this many stops (doublings), relative to the automatic exposure; an .exr has no
+    /// exposure
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, allow_negative_numbers = true)]
     pub(crate) exposure: f64,
 }
@@ -26,9 +27,9 @@ pub(crate) struct PictureArgs {
 impl Default for PictureArgs {
     fn default() -> Self {
         Self {
-            #[cfg(feature = "png")]
+            #[cfg(any(feature = "exr", feature = "png"))]
             camera: None,
-            #[cfg(feature = "png")]
+            #[cfg(any(feature = "exr", feature = "png"))]
             size: None,
             exposure: 0.0,
         }
@@ -38,23 +39,23 @@ impl Default for PictureArgs {
 impl PictureArgs {
     /// The camera that a picture is taken with, if one is named.
     pub(crate) fn camera(&self) -> Option<&str> {
-        #[cfg(feature = "png")]
+        #[cfg(any(feature = "exr", feature = "png"))]
         return self.camera.as_deref();
-        #[cfg(not(feature = "png"))]
+        #[cfg(not(any(feature = "exr", feature = "png")))]
         None
     }
 
     /// Width and height of a picture, pixels.
     pub(crate) fn size(&self) -> (u32, u32) {
-        #[cfg(feature = "png")]
+        #[cfg(any(feature = "exr", feature = "png"))]
         return self.size.unwrap_or(SIZE);
-        #[cfg(not(feature = "png"))]
+        #[cfg(not(any(feature = "exr", feature = "png")))]
         SIZE
     }
 }
 
 /// A size in pixels: `1024x768`.
-#[cfg(feature = "png")]
+#[cfg(any(feature = "exr", feature = "png"))]
 fn size(text: &str) -> Result<(u32, u32), String> {
     let side = |t: &str| t.parse::<u32>().ok().filter(|n| (1..=16_384).contains(n));
     text.split_once(['x', 'X', '×'])
@@ -62,7 +63,7 @@ fn size(text: &str) -> Result<(u32, u32), String> {
         .ok_or_else(|| "expected a width and a height from 1 to 16384, such as 1024x768".into())
 }
 
-#[cfg(all(test, feature = "png"))]
+#[cfg(all(test, any(feature = "exr", feature = "png")))]
 mod tests {
     use super::*;
 

@@ -121,8 +121,15 @@ fn materials(scene: &Scene) -> u32 {
 fn places(probes: &[Probe]) -> u32 {
     let mut sum = Sum::default();
     for probe in probes {
-        sum.add(probe.triangle.0);
-        sum.reals(probe.uv.into_iter().chain([probe.area.unwrap_or(-1.0)]));
+        match *probe {
+            Probe::Surface { triangle, uv, area } => {
+                sum.add(triangle.0);
+                sum.reals(uv.into_iter().chain([area.unwrap_or(-1.0)]));
+            }
+            Probe::Free { position, normal } => {
+                sum.reals(position.to_array().into_iter().chain(normal.to_array()));
+            }
+        }
     }
     sum.0.finalize()
 }
@@ -150,7 +157,8 @@ mod tests {
     fn whatever_changes_the_light_is_told() {
         let config = ShootingConfig::until(1e-3);
         let refining = RefineConfig::until(Asked::Elements(100));
-        let probe = Probe { triangle: TriangleId(0), uv: [0.1, 0.2], area: None };
+        let at = |area| Probe::Surface { triangle: TriangleId(0), uv: [0.1, 0.2], area };
+        let probe = at(None);
         let plain = scene(1.0, 0.5, Sides::Front);
         let own = Identity::of(&plain, "bvh", &config, &refining, &[probe]);
         assert_eq!(own.check(&own.text()), Ok(()));
@@ -167,8 +175,10 @@ mod tests {
             "octree, expected bvh",
         );
         differs(Identity::of(&plain, "bvh", &config, &refining, &[]), "probes: 0");
-        let moved = Probe { area: Some(0.1), ..probe };
-        differs(Identity::of(&plain, "bvh", &config, &refining, &[moved]), "probes: 1");
+        let free = Probe::Free { position: DVec3::X, normal: DVec3::Z };
+        for moved in [at(Some(0.1)), free] {
+            differs(Identity::of(&plain, "bvh", &config, &refining, &[moved]), "probes: 1");
+        }
         let other = ShootingConfig { tolerance: 0.1, ..config };
         let message = "shooting: tolerance: 0.1, expected tolerance: 0.01";
         differs(Identity::of(&plain, "bvh", &other, &refining, &[probe]), message);

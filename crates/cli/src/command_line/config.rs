@@ -255,6 +255,7 @@ mod tests {
             let text = format!("{name} = {}\n", value(arg));
             let with = match name {
                 "every" => "checkpoint = \"a.ckpt\"\n",
+                "live-port" => "live = true\n",
                 _ => "",
             };
             let words = resolve(&(text.clone() + with), "").unwrap();

@@ -9,6 +9,9 @@ pub(crate) mod form_factors;
 #[cfg(feature = "manual")]
 pub(crate) mod man;
 pub(crate) mod plan;
+pub(crate) mod probe_grid;
 pub(crate) mod solve;
 #[cfg(feature = "verify")]
 pub(crate) mod verify;
+#[cfg(feature = "html")]
+pub(crate) mod view;

@@ -2,17 +2,21 @@
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use output::Format;
-use output::csv::Place;
+use output::csv::{FreePlace, Place, Places};
 use radiosity_core::{Mesh, Plan, Probe, Refined, StopReason};
 use scene::{Scene, TriangleId};
 use scene_import::Imported;
 
 use crate::args::{AccelArg, PictureArgs};
 use crate::failure::Failure;
+use crate::live::Live;
 use crate::memory::Budget;
+#[cfg(feature = "html")]
+use crate::page;
 use crate::pipeline::{self, INTERRUPT, Solved};
 use crate::prepared::{self, Prepared};
 use crate::progress::Progress;
@@ -49,6 +53,7 @@ pub(crate) fn bundled() -> Result<(), Failure> {
         report: Some(BUNDLED_REPORT.into()),
         probe: None,
         snapshot: None,
+        live: None,
         keeping: settings::Keeping::default(),
         goal: Goal::Error(0.01),
         limits: settings::Limits::default(),
@@ -66,6 +71,8 @@ pub(crate) fn bundled() -> Result<(), Failure> {
 pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let paths = settings.outputs.iter().filter_map(|t| match t {
         Target::File(path) | Target::Probes(path) => Some(path),
+        #[cfg(feature = "html")]
+        Target::Page(path) => Some(path),
         Target::Stdout => None,
     });
     let mut paths: Vec<&Path> = paths.chain(&settings.report).map(PathBuf::as_path).collect();
@@ -85,36 +92,48 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     let mut progress = Progress::new(settings.goal);
     progress.phase("reading");
     let clock = Instant::now();
-    let (file, imported) = open(settings.scene.as_deref(), &settings.read)?;
+    let mut read = settings.read;
+    // A lit GLB is the scene's own document, where it has one.
+    read.options.keep_document = settings.outputs.iter().any(Target::is_glb);
+    let (file, mut imported) = open(settings.scene.as_deref(), &read)?;
     check_factors(&file, &imported, &settings.read)?;
     let read_seconds = clock.elapsed().as_secs_f64();
     tell(|| Event::scene(&file, &imported), &format!("{file}: {}", imported.summary));
     screen::diagnostics(&imported.diagnostics);
+    let document = keep_document(&file, &mut imported)?;
     let options = settings::output_options(&settings.picture, &imported.scene)?;
+    let options = output::Options { document, ..options };
     check_paired(&imported.scene, &settings.read)?;
 
     let places = match &settings.probe {
         Some(path) => places(path, &imported.scene)?,
-        None => Vec::new(),
+        None => Places::Surface(Vec::new()),
     };
     if let Some(budget) = Budget::of(settings, &imported.scene) {
         budget.check()?;
     }
     let timed = settings.limits.time.is_some();
     let goal = (settings.goal, settings.shooting.correction, timed);
+    // What a plan knows of surfaces does not hold in the open.
+    let open = matches!(&places, Places::Free(free) if !free.is_empty());
+    let work = Work { everything: settings.work.everything || open, ..settings.work };
     let prepared = prepared::prepare(
         &imported.scene,
-        &settings.work,
+        &work,
         &settings.read,
         goal,
         settings.shooting.sharing,
         |phase| progress.phase(phase),
     )?;
     screen::log(|| Event::plan(&prepared.plan));
-    let probes: Vec<Probe> = places.iter().map(probe).collect();
+    let probes = probes(&places);
     let snapshots = Snapshots::of(settings, &imported.scene, &options);
-    let solved =
-        pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots, &mut progress)?;
+    let mut live = Live::start(settings, &file, &imported, &options)?;
+    let heard = (&mut progress, live.as_mut());
+    let solved = pipeline::solve(&imported.scene, &prepared, settings, &probes, snapshots, heard)?;
+    if let Some(live) = &mut live {
+        live.finish(&solved.refined.work, &solved.refined.solution);
+    }
     progress.phase("writing");
     if settings.shooting.split == radiosity_core::Split::Centroid {
         screen::warning(
@@ -126,16 +145,8 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     say_solved(&prepared, &solved, settings);
 
     let clock = Instant::now();
-    let mut outputs = Vec::new();
-    for target in &settings.outputs {
-        if *target == Target::Stdout {
-            progress.clear();
-        }
-        outputs.push(write(target, &imported.scene, &solved, &places, &options)?);
-    }
-    let output_seconds = clock.elapsed().as_secs_f64();
-    if let Some(path) = &settings.report {
-        let run = Run {
+    let report = |output_seconds: f64, outputs: &[String]| {
+        Report::of(Run {
             file: &file,
             imported: &imported,
             settings,
@@ -143,9 +154,21 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
             solved: &solved,
             read_seconds,
             output_seconds,
-            outputs: outputs.clone(),
-        };
-        Report::of(run).write(path)?;
+            outputs: outputs.to_vec(),
+        })
+    };
+    let mut outputs = Vec::new();
+    for target in &settings.outputs {
+        if *target == Target::Stdout {
+            progress.clear();
+        }
+        let so_far = || report(clock.elapsed().as_secs_f64(), &outputs);
+        let written = write(target, &imported, &solved, &places, &options, so_far)?;
+        outputs.push(written);
+    }
+    let output_seconds = clock.elapsed().as_secs_f64();
+    if let Some(path) = &settings.report {
+        report(output_seconds, &outputs).write(path)?;
         outputs.push(path.display().to_string());
     }
     progress.clear();
@@ -169,13 +192,14 @@ pub(crate) fn run(settings: &Solve) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Reads the places to report the exitance at.
-fn places(path: &Path, scene: &Scene) -> Result<Vec<Place>, Failure> {
+/// Reads the places to report the light at.
+fn places(path: &Path, scene: &Scene) -> Result<Places, Failure> {
     let file = File::open(path).map_err(|e| Failure::Failed(format!("{}: {e}", path.display())))?;
     let places = output::csv::read_places(file).map_err(|e| e.at(path))?;
     let triangles = scene.triangles().len();
+    let Places::Surface(on_triangles) = &places else { return Ok(places) };
     // The header is the first line.
-    match places.iter().zip(2..).find(|(place, _)| place.triangle as usize >= triangles) {
+    match on_triangles.iter().zip(2..).find(|(place, _)| place.triangle as usize >= triangles) {
         None => Ok(places),
         Some((place, line)) => Err(Failure::Failed(format!(
             "{}:{line}: triangle {}, expected one of the scene's {triangles}, counted from 0",
@@ -185,8 +209,20 @@ fn places(path: &Path, scene: &Scene) -> Result<Vec<Place>, Failure> {
     }
 }
 
-fn probe(place: &Place) -> Probe {
-    Probe { triangle: TriangleId(place.triangle), uv: place.uv, area: place.area }
+fn probes(places: &Places) -> Vec<Probe> {
+    let on = |&Place { triangle, uv, area }: &Place| Probe::Surface {
+        triangle: TriangleId(triangle),
+        uv,
+        area,
+    };
+    let free = |place: &FreePlace| Probe::Free {
+        position: place.position.into(),
+        normal: place.normal.into(),
+    };
+    match places {
+        Places::Surface(all) => all.iter().map(on).collect(),
+        Places::Free(all) => all.iter().map(free).collect(),
+    }
 }
 
 /// Segments keep off surfaces by a length that grows with the whole scene: one triangle far
@@ -218,11 +254,29 @@ pub(crate) fn open(path: Option<&Path>, read: &Read) -> Result<(String, Imported
     }
 }
 
+/// The scene's glTF document, if light can be put into it: better known now than at the end.
+#[cfg(feature = "gltf")]
+fn keep_document(
+    file: &str,
+    imported: &mut Imported,
+) -> Result<Option<Arc<scene::Document>>, Failure> {
+    let Some(document) = imported.document.take() else { return Ok(None) };
+    output::check_document(&document).map_err(|error| error.at(file))?;
+    Ok(Some(Arc::new(document)))
+}
+
+/// Nothing, as this build neither reads glTF nor writes it.
+#[cfg(not(feature = "gltf"))]
+fn keep_document(_: &str, _: &mut Imported) -> Result<Option<Arc<scene::Document>>, Failure> {
+    Ok(None)
+}
+
 /// Refuses factors that only .tri files know, for any other scene.
 pub(crate) fn check_factors(name: &str, imported: &Imported, read: &Read) -> Result<(), Failure> {
     let format = imported.summary.format;
-    let plain = scene_import::Options { sides: read.options.sides, ..Default::default() };
-    if format == scene_import::Format::Tri || read.options == plain {
+    let plain = scene_import::Options::default();
+    let [given, plain] = [read.options, plain].map(|o| (o.tri_light, o.tri_reflect));
+    if format == scene_import::Format::Tri || given == plain {
         return Ok(());
     }
     let message = format!("--light, --reflect: are for .tri files, and {name} is {format}");
@@ -246,22 +300,31 @@ pub(crate) fn check_paired(scene: &Scene, read: &Read) -> Result<(), Failure> {
     }
 }
 
+#[cfg_attr(not(feature = "html"), expect(unused_variables, reason = "only pages hold the report"))]
 fn write(
     target: &Target,
-    scene: &Scene,
+    imported: &Imported,
     solved: &Solved,
-    places: &[Place],
+    places: &Places,
     options: &output::Options,
+    report: impl FnOnce() -> Report,
 ) -> Result<String, Failure> {
-    let solution = &solved.refined.solution;
+    let (scene, solution) = (&imported.scene, &solved.refined.solution);
     match target {
         Target::File(path) => {
             output::write_file(path, scene, solution, options)?;
             Ok(path.display().to_string())
         }
         Target::Probes(path) => {
-            let light = &solved.refined.probes;
-            output::replace_file(path, |out| output::csv::write_places(out, places, light))?;
+            let Refined { probes, probe_irradiance, .. } = &solved.refined;
+            output::replace_file(path, |out| {
+                output::csv::write_probes(out, places, probes, probe_irradiance)
+            })?;
+            Ok(path.display().to_string())
+        }
+        #[cfg(feature = "html")]
+        Target::Page(path) => {
+            page::write_solved(path, imported, solution, options, &report())?;
             Ok(path.display().to_string())
         }
         Target::Stdout => {

@@ -67,7 +67,11 @@ pub(crate) fn form_factors(args: FormFactorsArgs) -> Result<FormFactors, Failure
         }),
         close: args.close,
         threads: threads(args.threads)?,
-        options: scene_import::Options { sides, ..scene_import::Options::default() },
+        options: scene_import::Options {
+            sides,
+            allow_outside: args.beside.allow_outside(),
+            ..scene_import::Options::default()
+        },
     })
 }
 

@@ -24,9 +24,21 @@ fn what_is_left_out_is_named_and_the_rest_works() {
         ("gltf", cfg!(feature = "gltf"), &["solve", "box.tri", "--elements", "20", "-o", "a.glb"]),
         ("gltf", cfg!(feature = "gltf"), &["convert", "box.tri", "b.glb"]),
         ("gltf", cfg!(feature = "gltf"), &["solve", "--elements", "20", "-o", "a.csv"]),
+        ("html", cfg!(feature = "html"), &["solve", "box.tri", "--elements", "20", "-o", "a.html"]),
+        ("html", cfg!(feature = "html"), &["view", "a.glb", "-o", "a.html"]),
+        (
+            "live",
+            cfg!(feature = "live"),
+            &["solve", "box.tri", "--elements", "20", "--live", "-o", "a.csv"],
+        ),
         ("obj", cfg!(feature = "obj"), &["solve", "a.obj", "-o", "a.csv"]),
         ("png", cfg!(feature = "png"), &["solve", "box.tri", "--elements", "20", "-o", "a.png"]),
-        ("png", cfg!(feature = "png"), &["solve", "box.tri", "--size", "9x9", "-o", "-"]),
+        (
+            "png",
+            cfg!(any(feature = "exr", feature = "png")),
+            &["solve", "box.tri", "--size", "9x9", "-o", "-"],
+        ),
+        ("exr", cfg!(feature = "exr"), &["solve", "box.tri", "--elements", "20", "-o", "a.exr"]),
         ("verify", cfg!(feature = "verify"), &["verify", "--only", "no such"]),
     ];
     for (feature, on, args) in cases {
@@ -38,8 +50,20 @@ fn what_is_left_out_is_named_and_the_rest_works() {
             assert_eq!((run.code(), said.lines().count()), (2, 1), "{args:?}: {said}");
         }
     }
-    let plain =
-        ["solve", "box.tri", "--elements", "20", "-o", "b.csv", "-o", "b.ply", "-o", "b.tri"];
+    let plain = [
+        "solve",
+        "box.tri",
+        "--elements",
+        "20",
+        "-o",
+        "b.csv",
+        "-o",
+        "b.ply",
+        "-o",
+        "b.tri",
+        "-o",
+        "b.vtu",
+    ];
     assert_eq!(radiosity(folder.path(), &plain).code(), 0);
 }
 

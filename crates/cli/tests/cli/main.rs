@@ -9,7 +9,11 @@ mod log;
 #[cfg(feature = "manual")]
 mod manual;
 mod mistakes;
+#[cfg(feature = "obj")]
+mod outside;
 mod plan;
+#[cfg(feature = "obj")]
+mod probe_grid;
 mod solve;
 mod statement;
 mod stopping;

@@ -20,11 +20,15 @@ fn solves_into_every_format_with_a_report() {
             "a.tri",
             "-o",
             "a.ply",
+            "-o",
+            "a.vtu",
             #[cfg(feature = "gltf")]
             "--output=a.glb",
             #[cfg(feature = "png")]
             "--output=a.png",
-            #[cfg(feature = "png")]
+            #[cfg(feature = "exr")]
+            "--output=a.exr",
+            #[cfg(any(feature = "exr", feature = "png"))]
             "--size=64x48",
             "--report",
             "a.json",
@@ -36,10 +40,13 @@ fn solves_into_every_format_with_a_report() {
         "a.csv",
         "a.tri",
         "a.ply",
+        "a.vtu",
         #[cfg(feature = "gltf")]
         "a.glb",
         #[cfg(feature = "png")]
         "a.png",
+        #[cfg(feature = "exr")]
+        "a.exr",
         "a.json",
     ];
     for file in files {

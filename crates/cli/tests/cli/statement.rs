@@ -102,7 +102,7 @@ fn probes_are_written_in_their_order() {
     assert_eq!(run.code(), 0, "{}", run.stderr());
     let text = std::fs::read_to_string(folder.path().join("a.probe.csv")).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(lines[0], "triangle,u,v,B_r,B_g,B_b");
+    assert_eq!(lines[0], "triangle,u,v,B_r,B_g,B_b,E_r,E_g,E_b");
     assert!(lines[1].starts_with("0,0.25,0.25,") && lines[3].starts_with("0,0.1,0.2,"));
     // Triangle 2 shines: no less than its emittance, 100·255.
     let shining: f64 = lines[2].split(',').nth(3).unwrap().parse().unwrap();

@@ -82,7 +82,7 @@ fn cornell_box() {
 #[test]
 fn eight_thousand_parts_of_the_room() {
     let Some((scene, rows)) = subject("room.tri", "room_fine.csv") else { return };
-    let probe = |row: &csv::Row| Probe {
+    let probe = |row: &csv::Row| Probe::Surface {
         triangle: TriangleId(row.triangle),
         uv: row.uv.unwrap(),
         area: Some(row.area),

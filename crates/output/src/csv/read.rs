@@ -5,11 +5,11 @@ use std::io::{BufRead, BufReader, Read};
 use scene::Rgb;
 
 use super::places::PLACE_SLACK;
-use super::{Place, Row};
+use super::{FreePlace, Place, Places, Row};
 use crate::{Error, ErrorKind};
 
-/// The columns that the reader knows; those of [`ROW`] or [`PLACE`] must be there.
-const COLUMNS: [&str; 12] = [
+/// The columns that the reader knows; those of [`ROW`], [`PLACE`] or [`FREE`] must be there.
+const COLUMNS: [&str; 18] = [
     "triangle",
     "area",
     "B_r",
@@ -22,18 +22,33 @@ const COLUMNS: [&str; 12] = [
     "ambiguous",
     "u",
     "v",
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
 ];
 const ROW: [usize; 5] = [0, 1, 2, 3, 4];
 const PLACE: [usize; 3] = [0, 10, 11];
+const FREE: [usize; 6] = [12, 13, 14, 15, 16, 17];
 const STANDARD_ERROR: std::ops::Range<usize> = 5..8;
 const UV: std::ops::Range<usize> = 10..12;
+
+/// The length of a normal that was divided by its length differs from 1 by no more: the rounding of
+/// a handful of operations.
+const UNIT_SLACK: f64 = 4.0 * f64::EPSILON;
+
+/// Bytes of a line: far more than any table has, and little enough for a source without end.
+const MAX_LINE: u64 = 1 << 20;
 
 /// Reads rows by the names in the first line, in any order: `triangle`, `area`, `B_r`,
 /// `B_g`, `B_b`, and where present `se_r`, `se_g`, `se_b`, `emits`, `ambiguous` (0 or 1), `u`,
 /// `v`. Other columns are passed over.
 ///
 /// # Errors
-/// [`ErrorKind::Text`] with line and column for a missing, repeated or malformed value;
+/// [`ErrorKind::Text`] with line and column for a missing, repeated or malformed value, and for a
+/// line of a mebibyte or more;
 /// [`ErrorKind::Read`] for what the source answers.
 ///
 /// # Examples
@@ -47,38 +62,65 @@ const UV: std::ops::Range<usize> = 10..12;
 /// # Ok::<(), output::Error>(())
 /// ```
 pub fn read(source: impl Read) -> Result<Vec<Row>, Error> {
-    lines(source, &ROW, Header::row)
+    let add = |rows: &mut Vec<Row>, header: &Header, line: &Line| {
+        rows.push(header.row(line)?);
+        Ok(())
+    };
+    lines(source, |_| &ROW, |_| Vec::new(), add)
 }
 
-/// Reads the columns `triangle`, `u`, `v` and, where present, `area`.
-pub(super) fn places(source: impl Read) -> Result<Vec<Place>, Error> {
-    lines(source, &PLACE, Header::place)
+/// Reads the columns of places on surfaces, or those of places in the open where they are named and
+/// `triangle` is not.
+pub(super) fn places(source: impl Read) -> Result<Places, Error> {
+    let required = |has: &dyn Fn(usize) -> bool| -> &'static [usize] {
+        if !has(PLACE[0]) && FREE.into_iter().any(has) { &FREE } else { &PLACE }
+    };
+    let none = |header: &Header| match header.places[PLACE[0]] {
+        Some(_) => Places::Surface(Vec::new()),
+        None => Places::Free(Vec::new()),
+    };
+    let add = |places: &mut Places, header: &Header, line: &Line| {
+        match places {
+            Places::Surface(all) => all.push(header.place(line)?),
+            Places::Free(all) => all.push(header.free_place(line)?),
+        }
+        Ok(())
+    };
+    lines(source, required, none, add)
 }
 
-/// Reads the header and then a value from each line.
+/// Reads the header, which says what it needs and what to begin with, and then adds each line.
 fn lines<T>(
     source: impl Read,
-    required: &[usize],
-    value: impl Fn(&Header, &Line) -> Result<T, Error>,
-) -> Result<Vec<T>, Error> {
+    required: impl Fn(&dyn Fn(usize) -> bool) -> &'static [usize],
+    none: impl Fn(&Header) -> T,
+    add: impl Fn(&mut T, &Header, &Line) -> Result<(), Error>,
+) -> Result<T, Error> {
     let mut source = BufReader::new(source);
     let mut bytes = Vec::new();
-    let mut header: Option<Header> = None;
-    let mut values = Vec::new();
+    let mut read: Option<(Header, T)> = None;
     for line in 1.. {
         bytes.clear();
-        let length = source.read_until(b'\n', &mut bytes);
-        if length.map_err(|e| Error::caused(ErrorKind::Read, e))? == 0 {
+        let length = source.by_ref().take(MAX_LINE).read_until(b'\n', &mut bytes);
+        let length = length.map_err(|e| Error::caused(ErrorKind::Read, e))?;
+        if length == 0 {
             break;
         }
+        if length as u64 == MAX_LINE {
+            return Err(fail(line, 1, format!("expected a line of less than {MAX_LINE} bytes")));
+        }
         let text = Line::new(line, &bytes)?;
-        match &header {
-            None => header = Some(Header::read(&text, required)?),
-            Some(header) => values.push(value(header, &text)?),
+        match &mut read {
+            None => {
+                let header = Header::read(&text, &required)?;
+                let values = none(&header);
+                read = Some((header, values));
+            }
+            Some((header, values)) => add(values, header, &text)?,
         }
     }
-    match header {
-        Some(_) => Ok(values),
+    match read {
+        Some((_, values)) => Ok(values),
         None => Err(fail(1, 1, "expected a first line that names the columns")),
     }
 }
@@ -90,7 +132,10 @@ struct Header {
 }
 
 impl Header {
-    fn read(line: &Line, required: &[usize]) -> Result<Self, Error> {
+    fn read(
+        line: &Line,
+        required: &impl Fn(&dyn Fn(usize) -> bool) -> &'static [usize],
+    ) -> Result<Self, Error> {
         let mut places = [None; COLUMNS.len()];
         let mut fields = 0;
         for (at, name) in line.fields() {
@@ -102,6 +147,7 @@ impl Header {
             fields += 1;
         }
         let absent = |i: &usize| places[*i].is_none();
+        let required = required(&|i| places[i].is_some());
         if let Some(i) = required.iter().copied().find(absent) {
             return Err(line.fail(line.end(), format!("expected a column named {}", COLUMNS[i])));
         }
@@ -140,6 +186,26 @@ impl Header {
             return Err(line.expected(field, "u + v of at most 1"));
         }
         Ok(Place { triangle: line.index(get(0))?, uv, area: line.not_negative(get(1))? })
+    }
+
+    fn free_place(&self, line: &Line) -> Result<FreePlace, Error> {
+        let fields = self.fields(line)?;
+        let get = |column: usize| self.places[column].map(|place| (column, fields[place]));
+        // The header has checked that all are there.
+        let number = |column| line.number(get(column)).map(Option::unwrap_or_default);
+        let [x, y, z, a, b, c] = FREE.map(number);
+        let normal = [a?, b?, c?];
+        // Of the largest first, so that no square leaves the range of f64.
+        let largest = normal.into_iter().fold(0.0, |m: f64, n| m.max(n.abs()));
+        let scaled = normal.map(|n| n / largest);
+        let length = scaled.into_iter().map(|n| n * n).sum::<f64>().sqrt();
+        // What was written as a unit is one, and keeps its bits.
+        let unit = (largest * length - 1.0).abs() <= UNIT_SLACK;
+        let normal = if unit { normal } else { scaled.map(|n| n / length) };
+        match get(FREE[5]) {
+            Some(field) if largest == 0.0 => Err(line.expected(field, "a normal of some length")),
+            _ => Ok(FreePlace { position: [x?, y?, z?], normal }),
+        }
     }
 
     fn row(&self, line: &Line) -> Result<Row, Error> {

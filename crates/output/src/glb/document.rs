@@ -17,6 +17,10 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// near enough to lose no wall, far enough for a 24-bit depth buffer.
 const NEAR_SHARE: f64 = 1e-3;
 
+/// The program that wrote the file.
+pub(crate) const GENERATOR: &str =
+    concat!("radiosity ", env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+
 /// What glTF has no place for, under a name that no other program uses.
 fn extras(ours: Value) -> Value {
     json!({ "radiosity": ours })
@@ -55,7 +59,7 @@ pub(crate) fn build(scene: &Scene, geometry: &Geometry, scale: f64) -> Result<Va
         "asset".into(),
         json!({
             "version": "2.0",
-            "generator": concat!("radiosity ", env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")),
+            "generator": GENERATOR,
             "extras": extras(json!({ "exposureScale": scale })),
         }),
     );

@@ -72,7 +72,7 @@ pub(crate) fn square(light: Rgb) -> (Scene, Solution) {
 }
 
 /// A box with one exitance: the walls of a room that face inwards, or an object's.
-#[cfg(feature = "png")]
+#[cfg(any(feature = "exr", feature = "png"))]
 pub(crate) fn closed_box(low: DVec3, high: DVec3, inwards: bool, lamp: Option<DVec3>) -> Scene {
     let mut lit = Lit::default();
     let group = lit.builder.group("box");

@@ -24,10 +24,13 @@ fn every_extension_writes_its_format_and_says_how_much() {
         #[cfg(feature = "png")]
         ("a.PNG", b"\x89PNG"),
         ("a.csv", b"triangle,"),
+        #[cfg(feature = "exr")]
+        ("a.exr", b"\x76\x2f\x31\x01"),
         #[cfg(feature = "glb")]
         ("a.glb", b"glTF"),
         ("a.ply", b"ply\n"),
         ("a.tri", b"Triangle"),
+        ("a.vtu", b"<?xml "),
     ];
     for (name, start) in starts {
         let path = folder.path().join(name);
@@ -46,6 +49,7 @@ fn what_this_build_leaves_out_is_named() {
     for (format, feature, on) in [
         (output::Format::Glb, "glb", cfg!(feature = "glb")),
         (output::Format::Png, "png", cfg!(feature = "png")),
+        (output::Format::Exr, "exr", cfg!(feature = "exr")),
     ] {
         let path = format!("a.{feature}");
         let found = output::Format::from_path(path.as_ref());
@@ -112,7 +116,7 @@ fn an_unknown_extension_names_the_known_ones() {
         [("a.jpg", "unknown file name extension \".jpg\""), ("lit", "no file name extension")]
     {
         let error = write_file(name.as_ref(), &scene, &solution, &Options::default()).unwrap_err();
-        let expected = format!("{name}: {what}, expected {}", output::Format::EXTENSIONS);
+        let expected = format!("{name}: {what}, expected {}", output::Format::extensions());
         assert_eq!(error.to_string(), expected);
     }
 }

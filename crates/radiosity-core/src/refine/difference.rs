@@ -74,23 +74,28 @@ pub(super) fn of_points(scene: &Scene, coarse: Lit, fine: Lit, counted: Counted)
     sums.relative(&whole)
 }
 
-/// Differences at places that both computed, on triangles that do not emit; each counts by
-/// its area, or all alike.
+/// Differences at places where both computed the irradiance, but for triangles that emit; each
+/// counts by its area, or all alike. Those of exitance or of irradiance, whichever are larger.
 pub(super) fn of_places(scene: &Scene, probes: &[Probe], coarse: &[Rgb], fine: &[Rgb]) -> Measured {
-    let by_area = probes.iter().all(|p| p.area.is_some());
-    let mut sums = Sums::default();
-    let (mut power, mut area) = (Rgb::ZERO, 0.0);
-    for (probe, (a, b)) in probes.iter().zip(coarse.iter().zip(fine)) {
-        if scene.material_of(probe.triangle).emits() {
-            continue;
+    let counted = |probe: &Probe| probe.material(scene).is_none_or(|m| !m.emits());
+    let leaving = |probe: &Probe| probe.material(scene).map_or(Rgb::ZERO, |m| m.reflectance);
+    let of = |share: &dyn Fn(&Probe) -> Rgb| {
+        let by_area = probes.iter().all(|p| p.area().is_some());
+        let mut sums = Sums::default();
+        let (mut power, mut area) = (Rgb::ZERO, 0.0);
+        for (probe, (a, b)) in probes.iter().zip(coarse.iter().zip(fine)) {
+            if !counted(probe) {
+                continue;
+            }
+            let weight = probe.area().filter(|_| by_area).unwrap_or(1.0);
+            sums.add(weight, (share(probe) * (*a - *b)).abs());
+            power += share(probe) * *b * weight;
+            area += weight;
         }
-        let weight = probe.area.filter(|_| by_area).unwrap_or(1.0);
-        sums.add(weight, (*a - *b).abs());
-        power += *b * weight;
-        area += weight;
-    }
-    let mean = if area > 0.0 { power / area } else { Rgb::ZERO };
-    Measured { e1: sums.total.share_of(power), einf: sums.largest.share_of(mean) }
+        let mean = if area > 0.0 { power / area } else { Rgb::ZERO };
+        Measured { e1: sums.total.share_of(power), einf: sums.largest.share_of(mean) }
+    };
+    of(&leaving).max(of(&|_| Rgb::splat(1.0)))
 }
 
 #[derive(Default)]

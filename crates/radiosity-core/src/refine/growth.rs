@@ -26,6 +26,13 @@ struct Density(Vec<f64>);
 
 record!(Growth { elements, density });
 
+impl Growth {
+    /// How many elements were asked for.
+    pub(super) fn elements(&self) -> usize {
+        self.elements
+    }
+}
+
 /// As a palette and a byte per element: densities go in a dozen steps.
 impl Record for Density {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {

@@ -7,6 +7,7 @@ use scene::Solution;
 use super::difference;
 use super::growth::Growth;
 use super::level::{Level, Setting};
+use super::place;
 use super::sample::Sampled;
 use super::statement::{
     Measured, Parts, Statement, Step, foreseen, mesh_error, stated, unbalanced,
@@ -371,7 +372,8 @@ impl<'a, E: Executor> Ladder<'a, E> {
             total_work: StepReport { unshot: level.work.unshot, ..self.base },
             corrected: level.corrected,
             closed_rows: level.closed_rows,
-            probes: level.probes,
+            probes: place::exitance(self.setting.scene, self.setting.probes, &level.probes),
+            probe_irradiance: level.probes,
         }
     }
 }

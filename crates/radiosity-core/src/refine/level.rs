@@ -39,7 +39,7 @@ pub(super) struct Level {
     pub(super) work: StepReport,
     pub(super) corrected: bool,
     pub(super) closed_rows: Option<[f64; 2]>,
-    /// Exitance at the probes.
+    /// Irradiance at the probes.
     pub(super) probes: Vec<Rgb>,
     pub(super) counted: Counted,
     /// There is light, and surfaces that could reflect it, but none was found on them: then
@@ -127,21 +127,23 @@ impl<E: Executor> Setting<'_, E> {
             einf: remaining.local.share_of(whole.mean()),
         };
         let received = shooting.at_probes();
-        let probes = place::exitance(scene, &mesh, &solution, self.probes, &received);
         let could = mesh
             .elements
             .iter()
             .any(|e| counted.counts(&mesh, e) && mesh.root_of(e).reflectance != Rgb::ZERO);
         let lit = reason != StopReason::NoLight;
+        let (ledger, work) = (shooting.ledger(), shooting.report());
+        let (corrected, closed_rows) = (shooting.corrected(), shooting.closed_rows());
+        let light = shooting.into_light(shown);
         Level {
             unseen: lit && could && whole.power == Rgb::ZERO,
-            probes,
-            ledger: shooting.ledger(),
-            work: shooting.report(),
-            corrected: shooting.corrected(),
-            closed_rows: shooting.closed_rows(),
+            probes: place::irradiance(scene, &mesh, &light, self.probes, &received),
+            ledger,
+            work,
+            corrected,
+            closed_rows,
             solution,
-            light: shooting.into_light(shown),
+            light,
             reason,
             counted,
             iteration,

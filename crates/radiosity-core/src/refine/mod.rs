@@ -112,8 +112,10 @@ pub struct Refined {
     pub corrected: bool,
     /// Row sums before they were closed; see [`crate::Shooting::closed_rows`].
     pub closed_rows: Option<[f64; 2]>,
-    /// Exitance at the probes.
+    /// Exitance at the probes; 0 at those in the open.
     pub probes: Vec<Rgb>,
+    /// Irradiance at the probes: the power that arrives per area, whatever is reflected.
+    pub probe_irradiance: Vec<Rgb>,
 }
 
 /// Solves a scene on finer and finer meshes until what is asked is met or the observer says stop.
@@ -131,6 +133,7 @@ pub fn refine<E: Executor>(
     probes: &[Probe],
     observer: &mut impl Observer,
 ) -> Refined {
+    let config = ShootingConfig { needs: place::needs(config.needs, scene, probes), ..config };
     let setting = Setting { scene, bvh, occluder, executor, config, refining, probes };
     Ladder::new(setting).climb(observer)
 }
@@ -155,6 +158,7 @@ pub fn resume<E: Executor>(
     probes: &[Probe],
     observer: &mut impl Observer,
 ) -> Result<Refined, Inconsistent> {
+    let config = ShootingConfig { needs: place::needs(config.needs, scene, probes), ..config };
     let setting = Setting { scene, bvh, occluder, executor, config, refining, probes };
     Ladder::new(setting).resume(checkpoint, observer)
 }

@@ -1,23 +1,37 @@
-//! Exitance at places that a caller names.
+//! The light at places that a caller names.
 //!
 //! At a single place it is computed there: the place receives every shot, as a mesh's own
 //! points do. Over a small area it is the mean of the mesh's light over that area.
 
+use accel::NO_TRIANGLE;
 use glam::DVec3;
-use scene::{Face, Rgb, Scene, Solution, TriangleId};
+use scene::{Face, Material, Rgb, Scene, TriangleId};
 
 use crate::mesh::{Mesh, ReceiverPoint};
+use crate::needs::Needs;
+use crate::reconstruct::Light;
 
-/// A place on the front of an input triangle a b c: a + u (b − a) + v (c − a).
+/// A place where a caller wants to know the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Probe {
-    /// The input triangle.
-    pub triangle: TriangleId,
-    /// Barycentric coordinates of b and c; at least 0, and at most 1 in sum.
-    pub uv: [f64; 2],
-    /// With an area, the mean is asked for over the part of the triangle of that area around
-    /// the place: the one that halving the longest edge leads to.
-    pub area: Option<f64>,
+pub enum Probe {
+    /// On the front of an input triangle a b c: a + u (b − a) + v (c − a).
+    Surface {
+        /// The input triangle.
+        triangle: TriangleId,
+        /// Barycentric coordinates of b and c; at least 0, and at most 1 in sum.
+        uv: [f64; 2],
+        /// With an area, the mean is asked for over the part of the triangle of that area around
+        /// the place: the one that halving the longest edge leads to.
+        area: Option<f64>,
+    },
+    /// In the open, as a meter is held: nothing is there that blocks or reflects. For such places
+    /// nothing that a plan leaves out may be left out, since it knows surfaces alone.
+    Free {
+        /// Where.
+        position: DVec3,
+        /// Where it looks, of unit length.
+        normal: DVec3,
+    },
 }
 
 /// Quarterings of a part for its mean: 64 samples.
@@ -31,51 +45,94 @@ const SAME: f64 = 1e-4;
 const MOST_HALVINGS: u32 = 64;
 
 impl Probe {
-    fn position(&self, [a, b, c]: [DVec3; 3]) -> DVec3 {
-        a + (b - a) * self.uv[0] + (c - a) * self.uv[1]
+    /// The surface that a place is on.
+    pub(super) fn material<'a>(&self, scene: &'a Scene) -> Option<&'a Material> {
+        match self {
+            Self::Surface { triangle, .. } => Some(scene.material_of(*triangle)),
+            Self::Free { .. } => None,
+        }
+    }
+
+    /// The area that the place stands for, if it was given.
+    pub(super) fn area(&self) -> Option<f64> {
+        match self {
+            Self::Surface { area, .. } => *area,
+            Self::Free { .. } => None,
+        }
     }
 
     /// Where the shots have to reach, for a single place.
     pub(super) fn receiver(&self, scene: &Scene) -> Option<ReceiverPoint> {
-        if self.area.is_some() {
-            return None;
+        match *self {
+            Self::Surface { area: Some(_), .. } => None,
+            Self::Surface { triangle, uv, area: None } => {
+                let [a, b, c] = scene.corners(triangle);
+                let normal = (b - a).cross(c - a).normalize_or_zero();
+                let position = position([a, b, c], uv);
+                Some(ReceiverPoint { position, normal, triangle: triangle.0 })
+            }
+            Self::Free { position, normal } => {
+                Some(ReceiverPoint { position, normal, triangle: NO_TRIANGLE })
+            }
         }
-        let [a, b, c] = scene.corners(self.triangle);
-        let normal = (b - a).cross(c - a).normalize_or_zero();
-        let position = self.position([a, b, c]);
-        Some(ReceiverPoint { position, normal, triangle: self.triangle.0 })
     }
 }
 
-/// The exitance at each probe; `received` is what the receivers among them got, in order.
-pub(super) fn exitance(
+fn position([a, b, c]: [DVec3; 3], [u, v]: [f64; 2]) -> DVec3 {
+    a + (b - a) * u + (c - a) * v
+}
+
+/// The needs of a scene with probes: means over a surface that reflects nothing in some channel
+/// want light there that no other surface does, and what is known of surfaces does not hold in the
+/// open.
+pub(super) fn needs(needs: Needs, scene: &Scene, probes: &[Probe]) -> Needs {
+    let dark = |material: &Material| material.reflectance.min_channel() == 0.0;
+    let wants = |p: &Probe| p.area().is_some() && p.material(scene).is_some_and(dark);
+    let free = probes.iter().any(|p| matches!(p, Probe::Free { .. }));
+    Needs {
+        black: needs.black || probes.iter().any(wants),
+        segments: needs.segments || free,
+        singles: needs.singles || free,
+        ..needs
+    }
+}
+
+/// The irradiance at each probe; `received` is what the receivers among them got, in order.
+pub(super) fn irradiance(
     scene: &Scene,
     mesh: &Mesh,
-    solution: &Solution,
+    light: &Light,
     probes: &[Probe],
     received: &[Rgb],
 ) -> Vec<Rgb> {
     let roots = fronts(mesh, scene.triangles().len());
     let mut received = received.iter();
     let at = |probe: &Probe| {
-        let material = scene.material_of(probe.triangle);
-        let corners = scene.corners(probe.triangle);
-        let Some(area) = probe.area else {
-            let h = received.next().copied().unwrap_or_default();
-            return material.emittance + material.reflectance * h;
+        let &Probe::Surface { triangle, uv, area: Some(area) } = probe else {
+            return received.next().copied().unwrap_or_default();
         };
-        let roots = &roots[probe.triangle.index()];
-        let part = part_around(corners, probe.position(corners), area);
+        let corners = scene.corners(triangle);
+        let roots = &roots[triangle.index()];
+        let part = part_around(corners, position(corners, uv), area);
         let (mut sum, mut n) = (Rgb::ZERO, 0u32);
         samples(part, QUARTERINGS, &mut |place| {
-            if let Some(light) = light_at(mesh, solution, roots, place) {
-                sum += light;
+            if let Some(h) = light_at(mesh, light, roots, place) {
+                sum += h;
                 n += 1;
             }
         });
-        if n > 0 { sum / f64::from(n) } else { material.emittance }
+        if n > 0 { sum / f64::from(n) } else { Rgb::ZERO }
     };
     probes.iter().map(at).collect()
+}
+
+/// The exitance at each probe that a surface is at, of the irradiance there; 0 in the open.
+pub(super) fn exitance(scene: &Scene, probes: &[Probe], irradiance: &[Rgb]) -> Vec<Rgb> {
+    let leaves = |(probe, h): (&Probe, &Rgb)| match probe.material(scene) {
+        Some(material) => material.emittance + material.reflectance * *h,
+        None => Rgb::ZERO,
+    };
+    probes.iter().zip(irradiance).map(leaves).collect()
 }
 
 /// The roots of each input triangle's front.
@@ -120,8 +177,8 @@ fn samples([a, b, c]: [DVec3; 3], times: u32, at: &mut impl FnMut(DVec3)) {
     }
 }
 
-/// The mesh's light at a place: linear between the corners, shifted to the element's mean.
-fn light_at(mesh: &Mesh, solution: &Solution, roots: &[u32], place: DVec3) -> Option<Rgb> {
+/// The mesh's irradiance at a place: linear between the corners, shifted to the element's mean.
+fn light_at(mesh: &Mesh, light: &Light, roots: &[u32], place: DVec3) -> Option<Rgb> {
     let inside = |node: u32| {
         let weights = weights(mesh.corners(mesh.nodes[node as usize].vertices), place);
         weights.into_iter().fold(f64::INFINITY, f64::min)
@@ -137,12 +194,12 @@ fn light_at(mesh: &Mesh, solution: &Solution, roots: &[u32], place: DVec3) -> Op
         node = child;
     }
     let node = &mesh.nodes[node as usize];
-    let element = &solution.elements[node.elements.start as usize];
+    let element = node.elements.start as usize;
     let weights = weights(mesh.corners(node.vertices), place);
-    let corners = element.corner_exitance;
-    let linear: Rgb = corners.iter().zip(weights).map(|(b, w)| *b * w).sum();
+    let corners = mesh.elements[element].points.map(|p| light.shown[p as usize]);
+    let linear: Rgb = corners.iter().zip(weights).map(|(h, w)| *h * w).sum();
     let of_corners = corners.into_iter().sum::<Rgb>() / 3.0;
-    Some(linear + element.exitance - of_corners)
+    Some(linear + light.irradiance[element] - of_corners)
 }
 
 /// The weights of the corners at a place in their plane.

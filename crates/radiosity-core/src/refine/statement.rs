@@ -66,8 +66,17 @@ impl Measured {
     }
 
     pub(super) fn at_least(self, least: Rgb) -> Self {
-        self.both(|e| Rgb([0, 1, 2].map(|c| e[c].max(least[c]))))
+        self.both(|e| larger(e, least))
     }
+
+    /// The larger of each.
+    pub(super) fn max(self, other: Self) -> Self {
+        Self { e1: larger(self.e1, other.e1), einf: larger(self.einf, other.einf) }
+    }
+}
+
+fn larger(a: Rgb, b: Rgb) -> Rgb {
+    Rgb([0, 1, 2].map(|c| a[c].max(b[c])))
 }
 
 /// The difference between two meshes, and how many times as many elements the finer one has.

@@ -15,6 +15,7 @@ mod models;
 mod overlap;
 mod plan;
 mod plates;
+mod probes;
 mod refine;
 mod resume;
 mod stiff;

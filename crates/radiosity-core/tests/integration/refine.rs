@@ -157,7 +157,7 @@ fn a_probe_is_a_place_and_not_an_element() {
     let (scene, _) = plates(0.7);
     // The middle of the lower plate's diagonal sees a unit square at distance 1 from below its
     // middle: four times the form factor of a corner (Howell, B-3), 0.239456.
-    let place = |uv| Probe { triangle: TriangleId(2), uv, area: None };
+    let place = |uv| Probe::Surface { triangle: TriangleId(2), uv, area: None };
     let probes = [place([0.5, 0.0]), place([0.0, 0.0]), place([1.0 / 3.0; 2])];
     let refined = run(&scene, Asked::Elements(64), 1 << 20, &probes);
     let lit_by = |f: f64| 0.7 * f * 1.0;
@@ -172,7 +172,7 @@ fn a_probe_is_a_place_and_not_an_element() {
 #[test]
 fn a_probe_with_an_area_is_the_mean_over_it() {
     let (scene, _) = plates(0.7);
-    let whole = Probe { triangle: TriangleId(2), uv: [1.0 / 3.0; 2], area: Some(0.5) };
+    let whole = Probe::Surface { triangle: TriangleId(2), uv: [1.0 / 3.0; 2], area: Some(0.5) };
     let refined = run(&scene, Asked::Elements(256), 1 << 20, &[whole]);
     let mean = refined.solution.triangle_exitance(&scene)[2];
     // 64 samples of light that is linear in each of 64 elements.

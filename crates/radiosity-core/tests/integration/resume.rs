@@ -154,7 +154,7 @@ fn corrections_and_closed_rows_go_on_alike() {
 fn probes_and_paired_surfaces_go_on_alike() {
     let mut case = Case::new(shadows(0.4), Asked::Elements(500));
     case.probes = [None, Some(0.01)]
-        .map(|area| Probe { triangle: TriangleId(0), uv: [0.3, 0.4], area })
+        .map(|area| Probe::Surface { triangle: TriangleId(0), uv: [0.3, 0.4], area })
         .to_vec();
     let whole = goes_on_alike("probes", &case);
     assert!(whole.probes.len() == 2 && whole.probes.iter().all(|p| p[0] > 0.0));
@@ -194,9 +194,10 @@ fn states_of_other_work_are_refused() {
     assert!(refused(&Case::new(shadows(0.7), Asked::Elements(500))));
     assert!(refused(&Case::new(shadows(0.7), Asked::Unstated(500))));
     let mut other = Case::new(shadows(0.7), Asked::Error(0.08));
-    other.probes.push(Probe { triangle: TriangleId(0), uv: [0.3, 0.4], area: None });
+    let probe = |area| Probe::Surface { triangle: TriangleId(0), uv: [0.3, 0.4], area };
+    other.probes.push(probe(None));
     assert!(refused(&other));
-    other.probes[0].area = Some(0.1);
+    other.probes[0] = probe(Some(0.1));
     assert!(refused(&other));
     let mut other = Case::new(shadows(0.7), Asked::Error(0.08));
     other.config.correction = radiosity_core::Correction::Never;
@@ -204,6 +205,24 @@ fn states_of_other_work_are_refused() {
     other = Case::new(shadows(0.7), Asked::Error(0.08));
     other.refining.split = Split::None;
     assert!(refused(&other));
+}
+
+#[test]
+fn a_state_cannot_ask_for_a_first_mesh_of_any_size() {
+    // The default limit on elements, which keeps nobody from 2³⁰ of them.
+    let case = Case::new(shadows(0.7), Asked::Error(0.2));
+    let mut keeper = Keeper { last: Some(1), ..Keeper::default() };
+    case.solve(&mut keeper);
+    let mut kept = keeper.kept.remove(0);
+    assert!(case.resume(&kept, &mut Brief(0)).is_ok());
+    // Work of five numbers, then the limit on elements, the number of meshes and the first one's
+    // elements: 8 bytes each, but for the unshot share, which is 8 as well.
+    let at = 7 * 8;
+    let elements = u64::from_le_bytes(kept[at..at + 8].try_into().unwrap());
+    assert!((1..10_000).contains(&elements), "{elements}");
+    kept[at..at + 8].copy_from_slice(&200_000_000_u64.to_le_bytes());
+    let error = case.resume(&kept, &mut Brief(0)).unwrap_err();
+    assert_eq!(error.to_string(), "its meshes do not follow from each other");
 }
 
 /// Stops soon, so that states that make no sense do not take long.

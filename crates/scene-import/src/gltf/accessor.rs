@@ -7,8 +7,9 @@ use super::budget::Budget;
 use super::document::Parsed;
 use crate::{Error, ErrorKind};
 
-/// Entries that an accessor without a buffer may stand for: it costs no bytes.
-const MAX_ZEROS: usize = 1 << 22;
+/// Entries that an accessor without a buffer may stand for: it costs no bytes. A primitive has up
+/// to six accessors, which take 24 bytes an entry: 10 MB.
+const MAX_ZEROS: usize = 1 << 16;
 
 /// Reads `N` components of each entry as numbers, integers scaled to [0, 1] or [−1, 1] where
 /// the accessor says so; all must be finite. Entries may have more components than `N`,

@@ -6,8 +6,10 @@
 
 use crate::{Error, ErrorKind};
 
-/// Triangles any file may have, besides one for each of its bytes.
-const FREE_TRIANGLES: usize = 1 << 21;
+/// Triangles any file may have, besides one for each of its bytes. With all that is kept of them
+/// they take some 50 MB; a small file that shows one chair ten thousand times is rarer than a small
+/// file that wants to do harm.
+const FREE_TRIANGLES: usize = 1 << 17;
 
 /// Accessor entries any file may have read, besides one for each of its bytes. Instances
 /// of a mesh read it again.
@@ -21,7 +23,7 @@ pub(super) struct Budget<'a> {
 }
 
 impl<'a> Budget<'a> {
-    /// The allowance of a file that is, with its buffers, this many bytes long.
+    /// The allowance of a file that is, with the files of its buffers, this many bytes long.
     pub(super) fn new(file: &'a str, bytes: usize) -> Self {
         let triangles = FREE_TRIANGLES.saturating_add(bytes);
         Self { file, triangles, entries: FREE_ENTRIES.saturating_add(bytes) }
@@ -32,10 +34,11 @@ impl<'a> Budget<'a> {
         self.file
     }
 
-    /// Takes triangles from the allowance.
+    /// Takes the triangles of a primitive from the allowance. One without any counts as one, as the
+    /// way to it takes memory, too.
     pub(super) fn triangles(&mut self, count: usize, place: &str) -> Result<(), Error> {
         let error = || self.error(place, "triangles");
-        self.triangles = self.triangles.checked_sub(count).ok_or_else(error)?;
+        self.triangles = self.triangles.checked_sub(count.max(1)).ok_or_else(error)?;
         Ok(())
     }
 

@@ -1,7 +1,6 @@
 //! Textures as a primitive's material uses them.
 
 use std::collections::HashMap;
-use std::path::Path;
 use std::rc::Rc;
 
 use gltf::mesh::Semantic;
@@ -13,7 +12,7 @@ use super::budget::Budget;
 use super::document::Parsed;
 use super::uri;
 use crate::assembler::Assembler;
-use crate::open::Source;
+use crate::beside::Beside;
 use crate::texture::{TexelBudget, Texture, Wrap, interpolate};
 use crate::units::Decoding;
 use crate::{DiagnosticKind, Error};
@@ -21,7 +20,9 @@ use crate::{DiagnosticKind, Error};
 /// The images of a document, each decoded when it is first used.
 pub(super) struct Images<'p> {
     parsed: &'p Parsed,
-    folder: Option<&'p Path>,
+    /// Bytes of the file itself.
+    length: usize,
+    beside: Beside<'p>,
     budget: TexelBudget,
     /// By number; `None` for one that cannot be used.
     decoded: HashMap<usize, Option<Rc<Texture>>>,
@@ -36,9 +37,9 @@ pub(super) struct Layer {
 }
 
 impl<'p> Images<'p> {
-    pub(super) fn new(source: &Source<'p>, parsed: &'p Parsed) -> Self {
+    pub(super) fn new(parsed: &'p Parsed, length: usize, beside: Beside<'p>) -> Self {
         let decoded = HashMap::new();
-        Self { parsed, folder: source.folder, budget: TexelBudget::new(), decoded }
+        Self { parsed, length, beside, budget: TexelBudget::new(), decoded }
     }
 
     /// The layer that a material's texture makes on a primitive; `None`, after a warning,
@@ -86,7 +87,11 @@ impl<'p> Images<'p> {
         if let Some(known) = self.decoded.get(&index) {
             return known.clone();
         }
-        let decoded = match self.bytes(index).and_then(|b| Texture::decode(&b, &mut self.budget)) {
+        let texture = self.bytes(index).and_then(|bytes| {
+            let behind = self.length.saturating_add(self.beside.bytes());
+            Texture::decode(&bytes, behind, &mut self.budget)
+        });
+        let decoded = match texture {
             Ok(texture) => Some(Rc::new(texture)),
             Err(reason) => {
                 let image = &self.parsed.document.as_json().images[index];
@@ -103,7 +108,7 @@ impl<'p> Images<'p> {
 
     /// The encoded image. The JSON is asked, as the gltf crate's `Image::source` panics
     /// where it is incomplete.
-    fn bytes(&self, index: usize) -> Result<Vec<u8>, String> {
+    fn bytes(&mut self, index: usize) -> Result<Vec<u8>, String> {
         let document = &self.parsed.document;
         let image = &document.as_json().images[index];
         match (image.buffer_view, &image.uri) {
@@ -112,7 +117,7 @@ impl<'p> Images<'p> {
                     document.views().nth(view.value()).ok_or("its buffer view is missing")?;
                 Ok(view_bytes(self.parsed, &view)?.to_vec())
             }
-            (None, Some(uri)) => uri::fetch(uri, self.folder),
+            (None, Some(uri)) => uri::fetch(uri, &mut self.beside),
             (None, None) => Err("it has neither a buffer view nor a URI".to_owned()),
         }
     }

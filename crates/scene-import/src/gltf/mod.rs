@@ -6,21 +6,29 @@
 mod accessor;
 mod budget;
 mod document;
+mod kept;
 mod layer;
+mod light;
 mod primitive;
 mod range;
+mod restore;
 mod stated;
 mod surface;
 mod uri;
 mod walk;
 
-use scene::{Camera, TriangleId};
+use scene::{Camera, Face, TriangleId};
 
 use crate::assembler::Assembler;
+use crate::beside::Beside;
 use crate::open::Source;
-use crate::{DiagnosticKind, Error, Format, Imported, Options};
+use crate::shortened::shortened;
+use crate::{DiagnosticKind, Error, Format, Imported, Lit, Options, SidesRule};
 use budget::Budget;
-use document::Parsed;
+use document::{Parsed, Wanted};
+use kept::Keeper;
+use layer::Images;
+use light::Light;
 use stated::Stated;
 use surface::Surfaces;
 use walk::Placed;
@@ -50,29 +58,58 @@ pub(crate) fn read(
     format: Format,
     options: &Options,
 ) -> Result<Imported, Error> {
-    let parsed = Parsed::new(source)?;
-    let mut assembler = Assembler::new(source.name, options.sides);
+    read_document(source, format, options, None)
+}
+
+/// Reads the elements of a file that this project has lit, each from its own side, and their light.
+pub(crate) fn read_lit(source: &Source<'_>) -> Result<Lit, Error> {
+    let mut light = Light::default();
+    let options = Options { sides: SidesRule::Front, ..Options::default() };
+    let Imported { scene, mut diagnostics, .. } =
+        read_document(source, Format::Glb, &options, Some(&mut light))?;
+    // What is odd about single triangles was so before they were lit, or comes of their being cut.
+    diagnostics.retain(|diagnostic| diagnostic.triangle.is_none());
+    let (solution, exposure) = light.solution(&scene, source.name)?;
+    Ok(Lit { scene, solution, exposure, diagnostics })
+}
+
+/// Reads a document; its light, and the primitives of backs, only where they are wanted.
+fn read_document(
+    source: &Source<'_>,
+    format: Format,
+    options: &Options,
+    mut light: Option<&mut Light>,
+) -> Result<Imported, Error> {
+    let mut beside = Beside::new(source.folder, options.allow_outside);
+    let wanted = Wanted { text: options.keep_document, light: light.is_some() };
+    let parsed = Parsed::new(source, wanted, &mut beside)?;
+    if let Some(light) = light.as_deref_mut() {
+        light.read_exposure(&parsed, source.name)?;
+    }
+    let bytes = source.bytes.len().saturating_add(beside.bytes());
+    let mut assembler = Assembler::new(source.name, options.sides, bytes);
     let stated = Stated::new(&parsed.document, source.name, &mut assembler)?;
     range::check(source.name, parsed.document.as_json(), &stated)?;
     warn_about_document(&parsed, &stated, source.name, &mut assembler);
-    let mut budget = Budget::new(
-        source.name,
-        source.bytes.len() + parsed.buffers.iter().map(Vec::len).sum::<usize>(),
-    );
-    let mut surfaces = Surfaces::new(source, &parsed, &stated);
+    let mut budget = Budget::new(source.name, bytes);
+    let images = Images::new(&parsed, source.bytes.len(), beside);
+    let mut surfaces = Surfaces::new(images, &parsed, &stated);
     let mut runs = Vec::new();
+    let mut keeper = Keeper::new(options.keep_document);
     for placed in walk::walk(&parsed.document, &stated, source.name)? {
         let Placed { node, world } = &placed;
         let path = format!("nodes[{}]", node.index());
         if let Some(camera) = node.camera() {
             match convert_camera(&camera, &stated, &placed) {
-                Ok(camera) => assembler.camera(camera),
+                Ok(camera) => assembler.camera(camera)?,
                 Err(what) => assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str()),
             }
         }
         if let Some(light) = node.light() {
-            let what =
-                format!("light {}: only surfaces emit", light.name().unwrap_or("without a name"));
+            let what = format!(
+                "light {}: only surfaces emit",
+                shortened(light.name().unwrap_or("without a name"))
+            );
             assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str());
         }
         let Some(mesh) = node.mesh() else { continue };
@@ -81,17 +118,19 @@ pub(crate) fn read(
             assembler.warn(DiagnosticKind::Ignored { what }, None, path.as_str());
         }
         let group = match node.name().or(mesh.name()) {
-            Some(name) => assembler.new_group(name),
-            None => assembler.new_group(&format!("node {}", node.index())),
+            Some(name) => assembler.new_group(name)?,
+            None => assembler.new_group(&format!("node {}", node.index()))?,
         };
         for primitive in mesh.primitives() {
-            if stated.is_back(mesh.index(), primitive.index()) {
+            let is_back = stated.is_back(mesh.index(), primitive.index());
+            if is_back && light.is_none() {
                 continue;
             }
             let path = format!("{path}.mesh[{}].primitives[{}]", mesh.index(), primitive.index());
             runs.push(Run { first: assembler.triangle_count(), path: path.clone() });
             let place = primitive::Place { path: &path, mesh: mesh.index(), world: *world, group };
-            primitive::add(
+            let first = TriangleId::from(assembler.triangle_count());
+            let added = primitive::add(
                 &primitive,
                 &place,
                 &parsed,
@@ -99,9 +138,18 @@ pub(crate) fn read(
                 &mut budget,
                 &mut assembler,
             )?;
+            if let Some(light) = light.as_deref_mut() {
+                let face = if is_back { Face::Back } else { Face::Front };
+                light.add(&primitive, face, first, &added, &parsed, &mut budget)?;
+            }
+            keeper.add([node.index(), mesh.index(), primitive.index()], first, &added);
         }
     }
-    Ok(assembler.finish(format, |id| place(&runs, id)))
+    drop(surfaces);
+    let beside = Beside::new(source.folder, options.allow_outside);
+    let document = keeper.finish(parsed, beside, &mut assembler);
+    let imported = assembler.finish(format, |id| place(&runs, id));
+    Ok(Imported { document, ..imported })
 }
 
 fn place(runs: &[Run], id: TriangleId) -> String {

@@ -21,6 +21,14 @@ pub(super) struct Place<'a> {
     pub(super) group: GroupId,
 }
 
+/// What a primitive became.
+pub(super) struct Added {
+    /// The vertices of each triangle, in the order of the file.
+    pub(super) corners: Vec<[usize; 3]>,
+    /// Whether the node mirrors, so that the second and the third change places.
+    pub(super) mirrored: bool,
+}
+
 /// Adds the triangles of a primitive.
 pub(super) fn add(
     primitive: &gltf::Primitive<'_>,
@@ -29,17 +37,20 @@ pub(super) fn add(
     surfaces: &mut Surfaces<'_>,
     budget: &mut Budget<'_>,
     assembler: &mut Assembler<'_>,
-) -> Result<(), Error> {
+) -> Result<Added, Error> {
+    let none = || Added { corners: Vec::new(), mirrored: false };
     let mut ignore =
         |what: String| assembler.warn(DiagnosticKind::Ignored { what }, None, place.path);
     let Some(mode) = Assembly::of(primitive.mode()) else {
         ignore(format!("primitive of {:?}", primitive.mode()));
-        return Ok(());
+        return budget.triangles(0, place.path).map(|()| none());
     };
     if primitive.morph_targets().len() > 0 {
         ignore("morph targets: the mesh stands as modelled".to_owned());
     }
-    let Some(positions) = primitive.get(&Semantic::Positions) else { return Ok(()) };
+    let Some(positions) = primitive.get(&Semantic::Positions) else {
+        return budget.triangles(0, place.path).map(|()| none());
+    };
     let positions: Vec<[f64; 3]> = accessor::read(&positions, parsed, budget)?;
     let order = match primitive.indices() {
         Some(indices) => Some(accessor::read_indices(&indices, parsed, budget)?),
@@ -72,7 +83,7 @@ pub(super) fn add(
         let corners = corners.map(|i| place.world.transform_point3(DVec3::from(positions[i])));
         assembler.triangle(corners, material, place.group)?;
     }
-    Ok(())
+    Ok(Added { corners: triangles, mirrored })
 }
 
 /// How a list of vertices makes triangles.

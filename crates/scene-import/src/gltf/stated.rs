@@ -46,7 +46,7 @@ enum Which {
 /// The side of a surface that a primitive shows.
 #[derive(Deserialize)]
 struct Face {
-    face: Side,
+    face: Option<Side>,
 }
 
 #[derive(Deserialize, PartialEq)]
@@ -105,7 +105,7 @@ impl Stated {
 
     /// Whether a primitive shows the back of surfaces whose front is there as well.
     pub(super) fn is_back(&self, mesh: usize, primitive: usize) -> bool {
-        self.faces[mesh][primitive].as_ref().is_some_and(|face| face.face == Side::Back)
+        self.faces[mesh][primitive].as_ref().is_some_and(|face| face.face == Some(Side::Back))
     }
 
     /// A node's translation.

@@ -12,7 +12,6 @@ use super::document::Parsed;
 use super::layer::{Images, Layer};
 use super::stated::Stated;
 use crate::assembler::Assembler;
-use crate::open::Source;
 use crate::texture::SampleGrid;
 use crate::units::{self, Decoding};
 use crate::{DiagnosticKind, Error};
@@ -43,11 +42,11 @@ struct Appearance {
 }
 
 impl<'p> Surfaces<'p> {
-    pub(super) fn new(source: &Source<'p>, parsed: &'p Parsed, stated: &'p Stated) -> Self {
+    pub(super) fn new(images: Images<'p>, parsed: &'p Parsed, stated: &'p Stated) -> Self {
         Self {
             parsed,
             stated,
-            images: Images::new(source, parsed),
+            images,
             colour: Decoding::srgb(),
             data: Decoding::linear(),
             known: HashMap::new(),

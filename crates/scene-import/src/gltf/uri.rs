@@ -1,32 +1,38 @@
 //! URIs of buffers and images: `data:` and paths beside the file.
 
-use std::path::Path;
-
-use crate::beside;
+use crate::beside::Beside;
 
 /// The bytes behind a URI; the error is half a sentence.
 ///
 /// # References
 /// RFC 2397 (`data:`), RFC 3986 section 2.1 (percent encoding), RFC 4648 section 4 (base64).
-pub(super) fn fetch(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        let (kind, data) = data.split_once(',').ok_or("the data URI has no comma")?;
-        return if kind.ends_with(";base64") { base64(data) } else { percent(data) };
+pub(super) fn fetch(uri: &str, beside: &mut Beside<'_>) -> Result<Vec<u8>, String> {
+    match data(uri) {
+        Some(data) => data,
+        None => beside.read(&path(uri)?),
     }
+}
+
+/// The bytes of a data URI; `None` if it is another.
+pub(super) fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
+    let (kind, data) = match uri.strip_prefix("data:")?.split_once(',') {
+        Some(parts) => parts,
+        None => return Some(Err("the data URI has no comma".to_owned())),
+    };
+    Some(if kind.ends_with(";base64") { base64(data) } else { percent(data) })
+}
+
+/// The path that a URI stands for.
+pub(super) fn path(uri: &str) -> Result<String, String> {
     if uri.contains(':') {
         return Err(format!("{} is neither data nor a relative path", shortened(uri)));
     }
-    let path = String::from_utf8(percent(uri)?).map_err(|_| "its path is not UTF-8")?;
-    beside::read(folder, &path)
+    String::from_utf8(percent(uri)?).map_err(|_| "its path is not UTF-8".to_owned())
 }
 
-/// A URI short enough for a message.
+/// A URI short enough for a message, in quotes.
 pub(super) fn shortened(uri: &str) -> String {
-    const LONGEST: usize = 60;
-    match uri.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{:?}…", &uri[..end]),
-        None => format!("{uri:?}"),
-    }
+    format!("{:?}", crate::shortened::shortened(uri))
 }
 
 fn percent(text: &str) -> Result<Vec<u8>, String> {
@@ -72,6 +78,8 @@ fn base64(text: &str) -> Result<Vec<u8>, String> {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
 
     #[test]
@@ -95,7 +103,9 @@ mod tests {
 
     #[test]
     fn uris_that_lead_elsewhere_are_refused() {
-        assert_eq!(fetch("data:text/plain,a%20b", None).unwrap(), b"a b");
+        let alone = &mut Beside::new(None, false);
+        let here = &mut Beside::new(Some(Path::new(".")), false);
+        assert_eq!(fetch("data:text/plain,a%20b", alone).unwrap(), b"a b");
         for uri in [
             "data:x",
             "http://a/b",
@@ -106,9 +116,14 @@ mod tests {
             "a.bin",
             "data:,%",
         ] {
-            assert!(fetch(uri, None).is_err(), "{uri}");
+            assert!(fetch(uri, alone).is_err(), "{uri}");
         }
-        assert!(fetch("/etc/passwd", Some(Path::new("."))).is_err());
-        assert!(fetch("..", Some(Path::new("."))).unwrap_err().contains("plain file"));
+        for uri in ["/etc/passwd", "..", "%2e%2e/a", "a/%2E./../b", "..%5ca", "%43%3A%5Ca", "//a/b"]
+        {
+            assert!(fetch(uri, here).unwrap_err().contains("--allow-outside"), "{uri}");
+        }
+        let anywhere = &mut Beside::new(Some(Path::new(".")), true);
+        assert!(fetch("..", anywhere).unwrap_err().contains("plain file"));
+        assert!(fetch("src", here).unwrap_err().contains("plain file"));
     }
 }

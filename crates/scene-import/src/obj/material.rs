@@ -1,6 +1,6 @@
 //! The materials that faces name, resolved through the libraries.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use scene::{Material, MaterialId, Rgb, Sides};
@@ -8,10 +8,11 @@ use scene::{Material, MaterialId, Rgb, Sides};
 use super::mtl::{self, MtlMaterial};
 use super::survey::{Face, Survey};
 use crate::assembler::{Assembler, MISSING_REFLECTANCE};
+use crate::beside::Beside;
 use crate::open::Source;
 use crate::texture::{SampleGrid, TexelBudget, Texture, Wrap, interpolate};
 use crate::units::{self, Decoding};
-use crate::{DiagnosticKind, Error, beside};
+use crate::{DiagnosticKind, Error};
 
 /// What each material number of a survey stands for.
 pub(super) struct Materials<'a> {
@@ -45,11 +46,12 @@ impl<'a> Materials<'a> {
     /// Reads the libraries and textures; what is missing is warned about.
     pub(super) fn load(
         source: &Source<'a>,
+        mut beside: Beside<'_>,
         survey: &Survey,
         assembler: &mut Assembler<'_>,
     ) -> Result<Self, Error> {
-        let library = libraries(source, survey, assembler)?;
-        let mut textures = Textures::new(source.folder);
+        let library = libraries(source, &mut beside, survey, assembler)?;
+        let mut textures = Textures::new(source.bytes.len(), beside);
         let mut entries = Vec::with_capacity(survey.materials.len());
         for (name, line) in &survey.materials {
             let place = format!("{}:{line}", source.name);
@@ -111,19 +113,25 @@ impl<'a> Materials<'a> {
 /// All materials of all libraries; of two with one name the later counts.
 fn libraries(
     source: &Source<'_>,
+    beside: &mut Beside<'_>,
     survey: &Survey,
     assembler: &mut Assembler<'_>,
 ) -> Result<HashMap<String, MtlMaterial>, Error> {
     let mut all = HashMap::new();
+    // A library that is named again says nothing new, but its warnings would be there again.
+    let mut read = HashSet::new();
     for (line, names) in &survey.libraries {
         // A statement may name several files, and a file's name may hold blanks.
-        let whole =
-            beside::read(source.folder, names).map(|bytes| vec![(names.as_str(), Ok(bytes))]);
-        let files = whole.unwrap_or_else(|_| {
-            names.split(' ').map(|name| (name, beside::read(source.folder, name))).collect()
-        });
-        for (name, bytes) in files {
-            match bytes {
+        let files: Vec<&str> = match beside.find(names) {
+            Ok(_) => vec![names],
+            Err(_) => names.split(' ').collect(),
+        };
+        for name in files {
+            let found = beside.find(name);
+            if found.as_ref().is_ok_and(|path| !read.insert(path.clone())) {
+                continue;
+            }
+            match found.and_then(|path| beside.read_found(&path)) {
                 Ok(bytes) => {
                     let file = Path::new(name).file_name().unwrap_or_default().to_string_lossy();
                     let (materials, warnings) =
@@ -191,16 +199,18 @@ fn entry(
 
 /// Textures by file, each decoded once.
 struct Textures<'a> {
-    folder: Option<&'a Path>,
+    /// Bytes of the OBJ file.
+    length: usize,
+    beside: Beside<'a>,
     budget: TexelBudget,
     by_name: HashMap<String, Option<usize>>,
     decoded: Vec<Texture>,
 }
 
 impl<'a> Textures<'a> {
-    fn new(folder: Option<&'a Path>) -> Self {
+    fn new(length: usize, beside: Beside<'a>) -> Self {
         let (by_name, decoded) = (HashMap::new(), Vec::new());
-        Self { folder, budget: TexelBudget::new(), by_name, decoded }
+        Self { length, beside, budget: TexelBudget::new(), by_name, decoded }
     }
 
     /// The number of a texture; a missing one is warned about once.
@@ -208,8 +218,10 @@ impl<'a> Textures<'a> {
         if let Some(&known) = self.by_name.get(file) {
             return known;
         }
-        let texture = beside::read(self.folder, file)
-            .and_then(|bytes| Texture::decode(&bytes, &mut self.budget));
+        let texture = self.beside.read(file).and_then(|bytes| {
+            let behind = self.length.saturating_add(self.beside.bytes());
+            Texture::decode(&bytes, behind, &mut self.budget)
+        });
         let number = match texture {
             Ok(texture) => {
                 self.decoded.push(texture);

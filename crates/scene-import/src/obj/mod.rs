@@ -15,7 +15,9 @@ use glam::DVec3;
 use scene::TriangleId;
 
 use crate::assembler::Assembler;
+use crate::beside::Beside;
 use crate::open::Source;
+use crate::shortened::shortened;
 use crate::{DiagnosticKind, Error, ErrorKind, Format, Imported, Options};
 use material::Materials;
 use survey::Survey;
@@ -25,12 +27,14 @@ pub(crate) fn read(source: &Source<'_>, options: &Options) -> Result<Imported, E
     let text = String::from_utf8_lossy(source.bytes);
     let survey = survey::survey(source.name, &text)?;
     let mesh = mesh(source.name, &survey)?;
-    let mut assembler = Assembler::new(source.name, options.sides);
+    let mut assembler = Assembler::new(source.name, options.sides, source.bytes.len());
     for (line, kind) in &survey.warnings {
         assembler.warn(kind.clone(), None, format!("{}:{line}", source.name));
     }
-    let mut materials = Materials::load(source, &survey, &mut assembler)?;
-    let groups: Vec<_> = survey.groups.iter().map(|name| assembler.group(name)).collect();
+    let beside = Beside::new(source.folder, options.allow_outside);
+    let mut materials = Materials::load(source, beside, &survey, &mut assembler)?;
+    let groups: Vec<_> =
+        survey.groups.iter().map(|name| assembler.group(name)).collect::<Result<_, _>>()?;
     // The face of each triangle, to tell its place.
     let mut origins: Vec<u32> = Vec::with_capacity(mesh.indices.len());
     let mut start = 0;
@@ -60,7 +64,7 @@ pub(crate) fn read(source: &Source<'_>, options: &Options) -> Result<Imported, E
 
 fn place(file: &str, survey: &Survey, origins: &[u32], id: TriangleId) -> String {
     let face = &survey.faces[origins[id.index()] as usize];
-    let group = &survey.groups[face.group as usize];
+    let group = shortened(&survey.groups[face.group as usize]);
     format!("{file}:{}: group {group}, face {}", face.line, face.number_in_group)
 }
 

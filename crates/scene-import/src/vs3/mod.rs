@@ -32,7 +32,7 @@ const MAX_PIECES: usize = 16_384;
 pub(crate) fn read(source: &Source<'_>, options: &Options) -> Result<Imported, Error> {
     let text = String::from_utf8_lossy(source.bytes);
     let Records { surfaces, warnings, .. } = records::parse(source.name, &text)?;
-    let mut assembler = Assembler::new(source.name, options.sides);
+    let mut assembler = Assembler::new(source.name, options.sides, source.bytes.len());
     let place = |line: u64| format!("{}:{line}", source.name);
     for (line, kind) in warnings {
         assembler.warn(kind, None, place(line));
@@ -64,8 +64,11 @@ pub(crate) fn read(source: &Source<'_>, options: &Options) -> Result<Imported, E
     for (surface, pieces) in surfaces.iter().zip(pieces) {
         let group = match (surface.kind, surface.combine) {
             (Kind::Radiating, Some(earlier)) => groups[earlier],
-            (Kind::Radiating, None) => assembler.new_group(&surface.name),
-            _ => *obstructions.get_or_insert_with(|| assembler.new_group(OBSTRUCTIONS)),
+            (Kind::Radiating, None) => assembler.new_group(&surface.name)?,
+            _ => match obstructions {
+                Some(group) => group,
+                None => *obstructions.insert(assembler.new_group(OBSTRUCTIONS)?),
+            },
         };
         groups.push(group);
         let material = assembler.material(material(surface), place(surface.line))?;

@@ -265,12 +265,13 @@ fn buffers_may_lie_beside_the_file_or_within_it() {
     }
     assert_eq!(
         failure("a.gltf", json("my%20data.bin")),
-        "a.gltf: buffers[0]: cannot be read: the scene was opened without its folder"
+        "a.gltf: buffers[0]: \"my%20data.bin\" cannot be read: the scene was opened without its folder"
     );
     for uri in ["gone.bin", "%FF.bin", "http://example.org/a.bin"] {
         fs::write(&path, json(uri)).unwrap();
         let error = open(&path, &Options::default()).unwrap_err().to_string();
-        assert!(error.starts_with("a.GLTF: buffers[0]: cannot be read: "), "{error}");
+        let expected = format!("a.GLTF: buffers[0]: {uri:?} cannot be read: ");
+        assert!(error.starts_with(&expected), "{error}");
     }
     fs::write(folder.path().join("my data.bin"), [0; 8]).unwrap();
     fs::write(&path, json("my%20data.bin")).unwrap();

@@ -2,6 +2,8 @@
 
 #[cfg(feature = "gltf")]
 mod appearance;
+#[cfg(feature = "gltf")]
+mod document;
 mod errors;
 #[cfg(feature = "gltf")]
 mod extras;
@@ -14,6 +16,8 @@ mod hostile;
 mod lint;
 #[cfg(feature = "obj")]
 mod obj;
+#[cfg(all(feature = "gltf", feature = "obj"))]
+mod outside;
 mod shared_scenes;
 mod tri;
 mod tri_records;

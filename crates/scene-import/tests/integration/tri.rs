@@ -30,7 +30,8 @@ fn colours_become_reflectance_and_emittance() {
 
 #[test]
 fn options_scale_light_and_reflectance_and_choose_sides() {
-    let options = Options { tri_light: 2.0, tri_reflect: 0.25, sides: SidesRule::Both };
+    let options =
+        Options { tri_light: 2.0, tri_reflect: 0.25, sides: SidesRule::Both, ..Options::default() };
     let imported = open_bytes("a.tri", LAMP.as_bytes(), &options).unwrap();
     let [plain, lamp] = [0, 1].map(|i| imported.scene.material_of(TriangleId(i)));
     assert_eq!(lamp.emittance, Rgb::new(51_000.0, 2_000.0, 0.0));

@@ -159,6 +159,12 @@ impl<E: Executor> Ladder<'_, E> {
         if counts.into_iter().any(|count| count > MOST_COUNTED) {
             return Err(Inconsistent("it has a count out of range"));
         }
+        // Each mesh is at most some times as fine as the one before, which a place in the file for
+        // each of its elements justifies; the first one has to be as small as it always is.
+        let first = self.first();
+        if self.setting.adaptive() && climbed.grown.first().is_some_and(|g| g.elements() > first) {
+            return Err(Inconsistent("its meshes do not follow from each other"));
+        }
         self.base = climbed.base;
         let most = &mut self.setting.refining.most_elements;
         *most = climbed.most_elements.clamp(1, (*most).max(1));

@@ -1,0 +1,7 @@
+//! Bytes as a View3D scene.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|bytes: &[u8]| radiosity_fuzz::scene("a.vs3", bytes));
