@@ -24,7 +24,8 @@ const LIBRARIES: [&str; 8] = [
 
 /// A program that shows how a crate is used.
 struct Example {
-    package: &'static str,
+    /// Of its crate, in `crates`.
+    folder: &'static str,
     name: String,
     text: String,
 }
@@ -34,7 +35,8 @@ fn every_example_runs_and_succeeds() {
     let root = crate::root();
     let folder = scratch();
     for example in examples(&root) {
-        let command = format!("cargo run -p {} --example {}", example.package, example.name);
+        let package = package(example.folder);
+        let command = format!("cargo run -p {package} --example {}", example.name);
         let output = example.run(&root, &folder);
         let [out, error] = [&output.stdout, &output.stderr].map(|b| String::from_utf8_lossy(b));
         assert!(output.status.success(), "{command}: {}\n{out}{error}", output.status);
@@ -48,10 +50,11 @@ fn every_example_runs_and_succeeds() {
 fn every_library_has_examples_that_say_how_to_run_them() {
     let root = crate::root();
     let examples = examples(&root);
-    for package in LIBRARIES {
-        let readme = fs::read_to_string(root.join("crates").join(package).join("README.md"))
+    for folder in LIBRARIES {
+        let package = package(folder);
+        let readme = fs::read_to_string(root.join("crates").join(folder).join("README.md"))
             .expect("each crate has a README");
-        let own: Vec<_> = examples.iter().filter(|example| example.package == package).collect();
+        let own: Vec<_> = examples.iter().filter(|example| example.folder == folder).collect();
         assert!(!own.is_empty(), "{package} has no example");
         for Example { name, text, .. } in own {
             let command = format!("//! `cargo run -p {package} --example {name}");
@@ -65,10 +68,10 @@ fn every_library_has_examples_that_say_how_to_run_them() {
 /// All examples but measurements.
 fn examples(root: &Path) -> Vec<Example> {
     let mut found = Vec::new();
-    for package in LIBRARIES {
-        let folder = root.join("crates").join(package).join("examples");
-        let mut files: Vec<PathBuf> = fs::read_dir(&folder)
-            .unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
+    for folder in LIBRARIES {
+        let examples = root.join("crates").join(folder).join("examples");
+        let mut files: Vec<PathBuf> = fs::read_dir(&examples)
+            .unwrap_or_else(|e| panic!("{}: {e}", examples.display()))
             .map(|entry| entry.expect("a folder can be read to its end").path())
             .collect();
         files.sort();
@@ -77,11 +80,16 @@ fn examples(root: &Path) -> Vec<Example> {
             let text = fs::read_to_string(&file).expect("an example is a file of text");
             let head = text.lines().take_while(|line| line.starts_with("//!"));
             if !head.clone().any(|line| line.contains("`cargo run --release")) {
-                found.push(Example { package, name, text });
+                found.push(Example { folder, name, text });
             }
         }
     }
     found
+}
+
+/// The package in a folder: its name has a prefix that keeps it apart on crates.io.
+fn package(folder: &str) -> String {
+    if folder.starts_with("radiosity-") { folder.into() } else { format!("radiosity-{folder}") }
 }
 
 /// A folder for what examples write: those that take no path write where temporary files go.
@@ -111,9 +119,9 @@ impl Example {
     fn is_current(&self, root: &Path, built: &Path) -> bool {
         let Ok(built) = fs::metadata(built).and_then(|file| file.modified()) else { return false };
         let mut packages = BTreeSet::new();
-        reach(root, self.package, &mut packages);
+        reach(root, self.folder, &mut packages);
         let folders = packages.iter().map(|package| root.join("crates").join(package));
-        let example = root.join(format!("crates/{}/examples/{}.rs", self.package, self.name));
+        let example = root.join(format!("crates/{}/examples/{}.rs", self.folder, self.name));
         let sources = folders.map(|folder| folder.join("src")).chain([example]);
         sources.map(|source| newest(&source)).all(|source| source < built)
     }
@@ -124,7 +132,8 @@ impl Example {
         let target = profile.parent().expect("a profile's folder lies in the target folder");
         let name = profile.file_name().unwrap_or_default().to_string_lossy();
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
-        command.args(["run", "--quiet", "--locked", "--package", self.package, "--example"]);
+        let package = package(self.folder);
+        command.args(["run", "--quiet", "--locked", "--package", &package, "--example"]);
         command.arg(&self.name).arg("--manifest-path").arg(root.join("Cargo.toml"));
         command.args(["--profile", if name == "debug" { "dev" } else { &name }]);
         command.env("CARGO_TARGET_DIR", target);

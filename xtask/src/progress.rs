@@ -52,7 +52,7 @@ struct Course {
 pub(crate) fn run(root: &Path, arguments: &Arguments) -> Result<(), String> {
     let program = match &arguments.program {
         Some(program) => program.clone(),
-        None => built::program(root, "cli", "radiosity")?,
+        None => built::program(root, "radiosity", "radiosity")?,
     };
     let shown = SHOWN.map(|percent| format!(" at {percent} % |")).concat();
     println!("| scene | flags | seconds | within two |{shown}");

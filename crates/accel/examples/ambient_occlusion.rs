@@ -1,6 +1,6 @@
 //! Bakes ambient occlusion into the vertex colours of a PLY file.
 //!
-//! `cargo run -p accel --example ambient_occlusion [-- SCENE.obj [OUT.ply]]`
+//! `cargo run -p radiosity-accel --example ambient_occlusion [-- SCENE.obj [OUT.ply]]`
 //!
 //! Ambient occlusion at a place is the share of an even sky that it sees, weighted by the cosine: 1
 //! in the open, 0 where everything is covered. Without arguments: a square plate above a floor. The

@@ -1,6 +1,6 @@
 //! Millions of segments per second, single and in batches, by scene, on one thread.
 //!
-//! `cargo run --release -p accel --example mrays [SCENE]...`
+//! `cargo run --release -p radiosity-accel --example mrays [SCENE]...`
 //!
 //! Segments run from a source, a little in front of a triangle's centroid, to all vertices that
 //! face it, in the order of the triangles; as many sources as make a million segments. Every

@@ -1,6 +1,6 @@
 //! What each choice of the solver is worth: the tables of docs/design.md.
 //!
-//! `cargo run --release -p conformance --example choices`, with the reference data beside the
+//! `cargo run --release -p radiosity-conformance --example choices`, with the reference data beside the
 //! checkout. Rows: error E1 of the worst channel against the path-traced reference.
 
 #![expect(clippy::print_stdout, reason = "its output is its purpose")]

@@ -1,6 +1,6 @@
 //! Rooms whose light has a published formula: the table of docs/cie171.md.
 //!
-//! `cargo run --release -p conformance --example cie171`: what the formula says, what the solver says,
+//! `cargo run --release -p radiosity-conformance --example cie171`: what the formula says, what the solver says,
 //! how far they are apart and how far they may be.
 
 #![expect(clippy::print_stdout, reason = "its output is its purpose")]

@@ -1,6 +1,6 @@
 //! What schedules are worth: the tables of docs/performance/schedules.md.
 //!
-//! `cargo run --release -p conformance --example schedules`. Rooms with 1, 4 and 40 lamps, one of
+//! `cargo run --release -p radiosity-conformance --example schedules`. Rooms with 1, 4 and 40 lamps, one of
 //! them with lamps that see each other; shots, segments and seconds until the light is within 1 %
 //! of what it converges to, which is what a schedule is for: unshot power alone says less.
 

@@ -1,6 +1,6 @@
 //! What splitting where the light changes is worth: a table of docs/performance/splitting.md.
 //!
-//! `cargo run --release -p conformance --example splits`, with the reference data beside the
+//! `cargo run --release -p radiosity-conformance --example splits`, with the reference data beside the
 //! checkout. For each way to split: angles, segments, the stated error, and the true one against
 //! the path-traced reference.
 

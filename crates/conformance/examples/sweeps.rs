@@ -1,5 +1,5 @@
 //! How many sweeps the shooting takes, by reflectance, with and without ambient corrections, as
-//! CSV: `cargo run --release -p conformance --example sweeps`. `cargo xtask numerics` draws it.
+//! CSV: `cargo run --release -p radiosity-conformance --example sweeps`. `cargo xtask numerics` draws it.
 //!
 //! A closed cube of one reflectance, one face of which emits, shot until a millionth of the
 //! light is unshot. A sweep is one shot per patch.

@@ -1,6 +1,6 @@
 //! The report's way to shoot, and ours one change at a time: a table of docs/performance/schedules.md.
 //!
-//! `cargo run --release -p conformance --example ways`, with the reference data beside the checkout.
+//! `cargo run --release -p radiosity-conformance --example ways`, with the reference data beside the checkout.
 //! One thread; a mesh of 50,000 elements of the room, shot until 13 % of the light is unshot, where
 //! the report's program stopped. Its way: every element shoots alone, in order of what it has left,
 //! one segment and one form factor for every receiver, segments one by one through an octree.

@@ -1,5 +1,5 @@
 //! What each estimator costs and how wrong it is, for random pairs of triangles, as CSV:
-//! `cargo run --release -p form-factor --example estimators`. `cargo xtask numerics` draws it.
+//! `cargo run --release -p radiosity-form-factor --example estimators`. `cargo xtask numerics` draws it.
 //!
 //! Pairs are of one size: longest edge 1, not thin, each wholly in front of the other, their
 //! centroids `distance` apart. `error` is the 95th percentile of the relative error against

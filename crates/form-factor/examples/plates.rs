@@ -1,6 +1,6 @@
 //! View factors between two plates over distance, beside the closed forms.
 //!
-//! `cargo run -p form-factor --example plates [-- TOLERANCE]`
+//! `cargo run -p radiosity-form-factor --example plates [-- TOLERANCE]`
 //!
 //! Unit squares that face each other at distance d; a floor of depth 1 and a wall of height d that
 //! meet along an edge of length 1; and the facing squares once more with a wall between them from

@@ -1,6 +1,6 @@
 //! A format of one's own, a plan of the floor as SVG, written whole or not at all.
 //!
-//! `cargo run -p output --example own_format [-- OUT.svg]`
+//! `cargo run -p radiosity-output --example own_format [-- OUT.svg]`
 //!
 //! Three of this crate's parts, without its formats: `replace_file` writes beside the place and renames,
 //! `tone` turns exitance into colours as pictures do, and a `Solution` is plain data, here by hand: a

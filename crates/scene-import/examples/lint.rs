@@ -1,6 +1,6 @@
 //! Says what is odd about a scene file of any of the formats, a line for each warning.
 //!
-//! `cargo run -p scene-import --example lint [-- SCENE]...`
+//! `cargo run -p radiosity-scene-import --example lint [-- SCENE]...`
 //!
 //! Without arguments: all bundled scenes. Warnings alone are no failure; a file that cannot be read
 //! is, with exit code 1, and so is a linter that misses what is wrong with a scene made to be wrong.

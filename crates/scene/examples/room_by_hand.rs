@@ -1,6 +1,6 @@
 //! Builds a lit room in code and estimates its light on the back of an envelope, without a solver.
 //!
-//! `cargo run -p scene --example room_by_hand`
+//! `cargo run -p radiosity-scene --example room_by_hand`
 //!
 //! In a closed room every bounce loses the share 1 − ρ̄ that its surfaces absorb on average, so a lamp
 //! of Φ watts brings the mean exitance to about Φ / (A (1 − ρ̄)): the "integrating sphere" estimate

@@ -1,7 +1,7 @@
 //! Float text beside the alternatives and by digits, and the reader and writer in bytes per second,
 //! by bytes.
 //!
-//! `cargo bench -p tri-io -- float_text`, `-- digits`, `-- records` and `-- bytes`.
+//! `cargo bench -p radiosity-tri-io -- float_text`, `-- digits`, `-- records` and `-- bytes`.
 
 #![allow(missing_docs)] // `criterion_group!` makes public functions without any
 

@@ -1,6 +1,6 @@
 //! Reads a `.tri` file from disk and says how fast.
 //!
-//! `cargo run --release -p tri-io --example read_rate -- FILE.tri`, or without a file to make one
+//! `cargo run --release -p radiosity-tri-io --example read_rate -- FILE.tri`, or without a file to make one
 //! of about 100 MB in the folder for temporary files and read that, five times.
 
 #![allow(clippy::print_stdout)] // a program, unlike the crate

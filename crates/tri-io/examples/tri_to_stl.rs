@@ -1,6 +1,6 @@
 //! Turns a .tri file of any length into ASCII STL, one record at a time.
 //!
-//! `cargo run -p tri-io --example tri_to_stl [-- SCENE.tri [OUT.stl]]`
+//! `cargo run -p radiosity-tri-io --example tri_to_stl [-- SCENE.tri [OUT.stl]]`
 //!
 //! Without arguments: the bundled hall, into the folder for temporary files. No more than one record
 //! is held at a time, so memory does not grow with the file. STL keeps neither colours nor lamps, and

@@ -41,7 +41,7 @@ pub(crate) fn run(root: &Path, arguments: &Arguments) -> Result<(), String> {
     if arguments.draw {
         return draw(root, &read(root)?);
     }
-    let program = built::program(root, "cli", "radiosity")?;
+    let program = built::program(root, "radiosity", "radiosity")?;
     let folder = root.join("target").join("needs");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let wanted = |name: &str| arguments.only.as_ref().is_none_or(|part| name.contains(part));

@@ -49,7 +49,7 @@ impl Program {
     /// Builds the program with optimisation. What it writes goes into a folder of this name
     /// beside it, so that two tasks may run at once.
     pub(crate) fn build(root: &Path, scratch: &str) -> Result<Self, String> {
-        let path = built::program(root, "cli", "radiosity")?;
+        let path = built::program(root, "radiosity", "radiosity")?;
         let scratch = path.with_file_name(scratch);
         fs::create_dir_all(&scratch).map_err(|e| format!("{}: {e}", scratch.display()))?;
         Ok(Self { root: root.to_path_buf(), path, scratch })

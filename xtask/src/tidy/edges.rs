@@ -64,7 +64,7 @@ const RULES: [Rule; 14] = [
 
 /// Complains about every edge that the table does not allow.
 pub(super) fn check(file: &str, text: &str) -> Vec<Complaint> {
-    let Some(member) = name(text) else {
+    let Some(member) = name(text).map(key) else {
         return vec![format!("{file}: [package] has no `name = \"…\"`")];
     };
     let Some(rule) = RULES.iter().find(|rule| rule.member == member) else {
@@ -100,6 +100,15 @@ impl Rule {
             // No build script of ours needs a crate of ours.
             Kind::Build => false,
         }
+    }
+}
+
+/// What the other crates call a package: without the prefix that keeps it apart on crates.io.
+fn key(package: &str) -> &str {
+    let is_member = |key: &&str| RULES.iter().any(|rule| rule.member == *key);
+    match package {
+        "radiosity" => "cli",
+        _ => package.strip_prefix("radiosity-").filter(is_member).unwrap_or(package),
     }
 }
 

@@ -2,7 +2,7 @@
 //! mesh and the same light, to the last bit.
 //!
 //! A quick run on one scene always; over all scenes, bundled and shared, with every loop and larger
-//! meshes, with `SAME_BITS=all cargo test --release -p conformance --test all same_bits -- --nocapture`;
+//! meshes, with `SAME_BITS=all cargo test --release -p radiosity-conformance --test all same_bits -- --nocapture`;
 //! of one file with its name instead of `all`, as `room`.
 
 use std::num::NonZeroUsize;

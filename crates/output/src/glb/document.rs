@@ -18,8 +18,7 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 const NEAR_SHARE: f64 = 1e-3;
 
 /// The program that wrote the file.
-pub(crate) const GENERATOR: &str =
-    concat!("radiosity ", env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+pub(crate) const GENERATOR: &str = concat!("radiosity ", env!("CARGO_PKG_VERSION"));
 
 /// What glTF has no place for, under a name that no other program uses.
 fn extras(ours: Value) -> Value {

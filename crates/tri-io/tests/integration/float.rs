@@ -69,7 +69,7 @@ fn every_f32_near_a_power_of_two_comes_back_with_the_digits_of_std() {
 }
 
 #[test]
-#[ignore = "all 2^32 patterns take minutes: cargo test --release -p tri-io -- --ignored every_f32"]
+#[ignore = "all 2^32 patterns take minutes: cargo test --release -p radiosity-tri-io -- --ignored every_f32"]
 fn every_f32_comes_back() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
     std::thread::scope(|scope| {
@@ -85,7 +85,7 @@ fn every_f32_comes_back() {
 
 /// The sign is one bit in front of the same digits, so the positive half stands for all.
 #[test]
-#[ignore = "takes minutes: cargo test --release -p tri-io -- --ignored every_f32"]
+#[ignore = "takes minutes: cargo test --release -p radiosity-tri-io -- --ignored every_f32"]
 fn every_f32_has_the_digits_of_std() {
     let threads = std::thread::available_parallelism().map_or(1, usize::from) as u64;
     std::thread::scope(|scope| {
