@@ -11,7 +11,7 @@ use std::time::SystemTime;
 use crate::tidy::dependencies_of;
 
 /// The crates that others take; each has programs that show how.
-const LIBRARIES: [&str; 8] = [
+const LIBRARIES: [&str; 9] = [
     "tri-io",
     "scene",
     "scene-import",
@@ -20,6 +20,7 @@ const LIBRARIES: [&str; 8] = [
     "radiosity-core",
     "radiosity-par",
     "output",
+    "viewer",
 ];
 
 /// A program that shows how a crate is used.
