@@ -6,6 +6,8 @@
 //! light above it, E = Φ cos θ / (4π r²). What the page shows as irradiance is (B − E) / ρ of what
 //! it was given, so a click on the floor answers with the formula's value.
 
+#![expect(clippy::print_stdout, reason = "a program for the terminal")]
+
 use std::error::Error;
 use std::f64::consts::PI;
 use std::fs::File;
