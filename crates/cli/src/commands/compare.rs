@@ -7,9 +7,10 @@ use output::csv;
 
 use crate::args::CompareArgs;
 use crate::failure::Failure;
+use crate::files;
 use crate::screen::result;
 #[cfg(feature = "png")]
-use crate::{files, screen, settings};
+use crate::{screen, settings};
 
 /// Prints E1, E2 and Einf per channel; the last column is the worst channel.
 pub(crate) fn run(args: &CompareArgs) -> Result<(), Failure> {
