@@ -28,7 +28,7 @@ pub(crate) use keeping::Keeping;
 const DEFAULT_ELEMENTS: usize = 10_000;
 
 /// What is written beside the formats of `output`.
-const PAGES: &str = if cfg!(feature = "html") { "; or .html" } else { "" };
+const PAGES: &str = if cfg!(feature = "html") { ", or .html" } else { "" };
 
 /// Ids are 32 bits wide, and a forest has up to two nodes per element.
 pub(crate) const MOST_ELEMENTS: usize = 1 << 30;
