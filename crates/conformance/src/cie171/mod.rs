@@ -75,6 +75,16 @@ pub fn comparisons() -> Result<Vec<Comparison>, Error> {
     Ok(cases.concat())
 }
 
+/// The sky through a roof opening without what [`comparisons`] does for it: one rectangle for a sky, and
+/// cells of the solver's own choice. No test holds it to its tolerance, which it misses: it shows what
+/// is weak (docs/numerics.md).
+///
+/// # Errors
+/// As for [`comparisons`].
+pub fn weak() -> Result<Vec<Comparison>, Error> {
+    opening::as_drawn()
+}
+
 /// A scene of rectangles in the making.
 struct Room {
     builder: SceneBuilder,

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::{Comparison, FINE, FINEST, FORM_FACTOR, Room, light, named};
+use super::{COARSE, Comparison, FINE, FINEST, FORM_FACTOR, Room, light, named};
 use crate::Error;
 use crate::howell::{point_to_parallel, point_to_perpendicular};
 
@@ -20,10 +20,18 @@ const ASIDE: &str = "Howell, catalogue, B-4; Tregenza & Sharples, 2.31 and 3.15"
 const SKY: f64 = 10_000.0;
 /// How far behind the opening the sky is.
 const BEHIND: f64 = 0.2;
+/// Triangles along a side of the sky where it is to be seen finely.
+const MANY: u32 = 40;
+
 pub(super) fn comparisons() -> Result<Vec<Comparison>, Error> {
-    let mut all = roof()?;
+    let mut all = roof(MANY, 1, FINE)?;
     all.extend(facade()?);
     Ok(all)
+}
+
+/// The roof as a user would draw it, its sky one rectangle, in cells of the solver's own choice.
+pub(super) fn as_drawn() -> Result<Vec<Comparison>, Error> {
+    roof(1, 10_000, COARSE)
 }
 
 /// What an opening of this area and rim may be off by, through a sky of elements of some width: its
@@ -52,20 +60,20 @@ fn frame(
 }
 
 /// An opening of 1 × 1 in the middle of a roof of 4 × 4, 3 above the floor.
-fn roof() -> Result<Vec<Comparison>, Error> {
+fn roof(along: u32, elements: usize, cell_share: f64) -> Result<Vec<Comparison>, Error> {
     let (half, wall, height) = (0.5, 2.0, 3.0);
     let mut room = Room::new();
     room.black_walls(DVec3::new(-wall, -wall, 0.0), DVec3::new(wall, wall, height))?;
     let roof = [DVec3::new(-wall, -wall, height), DVec3::Y * 2.0 * wall, DVec3::X * 2.0 * wall];
     frame(&mut room, roof, [0.375, 0.625], [0.375, 0.625])?;
     let sky = DVec3::new(-1.0, -1.0, height + BEHIND);
-    room.grid([sky, DVec3::Y * 2.0, DVec3::X * 2.0], [40, 40], 0.0, SKY)?;
+    room.grid([sky, DVec3::Y * 2.0, DVec3::X * 2.0], [along; 2], 0.0, SKY)?;
     let scene = room.finish();
 
     let places = [[0.0, 0.0], [0.5, 0.5], [1.0, 0.0], [1.5, 1.5], [-1.9, 0.3]];
     let places = places.map(|[x, y]| (DVec3::new(x, y, 0.0), DVec3::Z));
-    let lit = light(&scene, 1, FINE, &places);
-    let tolerance = tolerance(1.0, 4.0, 2.0 / 40.0);
+    let lit = light(&scene, elements, cell_share, &places);
+    let tolerance = tolerance(1.0, 4.0, 2.0 / f64::from(MANY));
     let compare = |(&(place, _), got): (&(DVec3, DVec3), &scene::Rgb)| Comparison {
         case: ROOF,
         source: ABOVE,
